@@ -1,0 +1,24 @@
+# Language level, warnings and sanitizers for every target of this package.
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE RelWithDebInfo CACHE STRING "Build type" FORCE)
+endif()
+# -g1 keeps line numbers in backtraces without the size of full debug information. No -march=native: a nodelet shares Eigen
+# objects with other libraries in its process. No contraction: the same bytes on every machine of an instruction set.
+set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O3 -g1 -DNDEBUG")
+
+add_library(depth_object_tracker_warnings INTERFACE)
+target_compile_options(depth_object_tracker_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wconversion -Wno-sign-conversion
+  -ffp-contract=off $<$<BOOL:${WARNINGS_AS_ERRORS}>:-Werror>)
+
+if(SANITIZE)
+  add_compile_options(-fsanitize=${SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${SANITIZE})
+  add_compile_definitions(EIGEN_INITIALIZE_MATRICES_BY_NAN)
+endif()

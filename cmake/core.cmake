@@ -1,0 +1,22 @@
+# depth_object_tracker_core: geometry, render, model, filter, tracker. Knows no ROS.
+find_package(assimp REQUIRED)
+find_package(yaml-cpp REQUIRED)
+
+add_library(depth_object_tracker_core SHARED
+  src/geometry/mesh_loader.cpp
+  src/geometry/pinhole_camera.cpp
+  src/geometry/pose.cpp
+  src/geometry/symmetry.cpp
+  src/geometry/triangle_mesh.cpp
+  src/tracker/object_model.cpp
+  src/tracker/object_tracker.cpp
+  src/tracker/tracker_parameters.cpp
+  src/tracker/tracker_result.cpp
+)
+target_include_directories(depth_object_tracker_core
+  # Headers that refuse to compile stand before the system's: a ROS include in the core is an error even where ROS lives in /usr/include.
+  PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/cmake/no_ros
+  PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
+target_link_libraries(depth_object_tracker_core
+  PUBLIC Eigen3::Eigen Threads::Threads
+  PRIVATE depth_object_tracker_warnings assimp::assimp yaml-cpp)

@@ -1,0 +1,1 @@
+# ros targets

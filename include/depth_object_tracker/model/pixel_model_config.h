@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parameters of the per-pixel measurement model (the paper's section on the observation model).
+#pragma once
+
+namespace depth_object_tracker {
+
+/// How an occluder's depth density is normalised.
+enum class OccluderModel {
+  kConsistent,  ///< occluders exist independently of the object: hiding never explains a pixel better than "no object"
+  kPaper,       ///< the paper's: renormalised to lie in front of the object
+};
+
+struct PixelModelConfig {
+  OccluderModel occluder_model = OccluderModel::kConsistent;
+  double object_noise_stddev_m = 0.003;    ///< sigma_m: how far the mesh is from the real surface
+  double depth_noise_per_m = 1.425e-3;     ///< sigma_c(z) = this * z^2 [1/m] (Khoshelham & Elberink 2012)
+  double tail_weight = 0.01;               ///< beta: share of readings that are anything in (0, max_depth_m)
+  double max_depth_m = 6.0;                ///< m: readings beyond are treated as missing
+  double occluder_half_life_m = 1.0;       ///< depth over which the occluders' density halves
+};
+
+struct OcclusionChainConfig {
+  double p_visible_given_visible = 0.9;   ///< over one second
+  double p_visible_given_occluded = 0.3;  ///< over one second
+  double initial_p_occluded = 0.25;       ///< p(o_0 = 1)
+};
+
+}  // namespace depth_object_tracker

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Facade of the tracker: an initial pose and a stream of depth images in, an estimate per image out.
+#pragma once
+
+#include "depth_object_tracker/geometry/depth_image.h"
+#include "depth_object_tracker/geometry/pinhole_camera.h"
+#include "depth_object_tracker/geometry/pose.h"
+#include "depth_object_tracker/model/control_input.h"
+#include "depth_object_tracker/tracker/object_model.h"
+#include "depth_object_tracker/tracker/tracker_config.h"
+#include "depth_object_tracker/tracker/tracker_result.h"
+
+#include <memory>
+#include <optional>
+
+namespace depth_object_tracker {
+
+/// Follows one rigid object. Not thread-safe: one thread calls at a time. Never throws after construction but std::bad_alloc.
+class ObjectTracker {
+ public:
+  /// @throws std::invalid_argument when the mesh has no triangle or a parameter is out of range.
+  ObjectTracker(ObjectModel object, const TrackerConfig& config);
+  ~ObjectTracker();
+  ObjectTracker(ObjectTracker&&) noexcept;
+  ObjectTracker& operator=(ObjectTracker&&) noexcept;
+
+  /// Starts anew from a pose in the camera's optical frame, at the next update.
+  /// @param covariance of the mesh origin's pose (REP-103 order); all zero = the configured default.
+  void initialise(const Pose& T_camera_object, const Matrix6d& covariance = Matrix6d::Zero());
+
+  /// Forgets the object: UNINITIALIZED until the next initialise().
+  void reset();
+
+  /// Moves the estimate to the image's stamp.
+  /// @param stamp_s seconds of the image's exposure; equal to the last one: ignored (counted); before it: see design, time jump.
+  /// @param control motion of a held object since the previous image; nullopt = the object is not held.
+  /// The view is read only during the call.
+  TrackerResult update(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s,
+                       const std::optional<ControlInput>& control = std::nullopt);
+
+  /// The weighted particles of the last update (mesh origin, weights sum to 1, before resampling). Empty before the first.
+  ParticlePoses particles() const;
+
+  /// Mean occlusion probability over the particles at working resolution. Empty before the first update.
+  OcclusionMap occlusionMap() const;
+
+  /// Depth of the object rendered at the last estimate at full resolution; 0 where it is not.
+  /// For overlays and masks; not on the hot path.
+  std::vector<float> renderEstimate() const;
+
+  const ObjectModel& object() const;
+  const TrackerConfig& config() const;
+  double diameterM() const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace depth_object_tracker

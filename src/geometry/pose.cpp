@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_object_tracker/geometry/pose.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace depth_object_tracker {
+
+Eigen::Matrix3d skew(const Eigen::Vector3d& a) {
+  Eigen::Matrix3d matrix;
+  matrix << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
+  return matrix;
+}
+
+Eigen::Matrix3d expSo3(const Eigen::Vector3d& rotation_vector) {
+  const double angle = rotation_vector.norm();
+  // Half-angle quaternion: sin(a/2)/a by its series below 1e-4 rad, where the quotient loses digits.
+  const double half_sinc = angle < 1e-4 ? 0.5 - angle * angle / 48.0 : std::sin(0.5 * angle) / angle;
+  Eigen::Quaterniond quaternion;
+  quaternion.w() = std::cos(0.5 * angle);
+  quaternion.vec() = half_sinc * rotation_vector;
+  return quaternion.normalized().toRotationMatrix();
+}
+
+Eigen::Vector3d logSo3(const Eigen::Matrix3d& rotation) {
+  // Through the quaternion: Shepperd's branch keeps every digit near pi, where the antisymmetric part vanishes.
+  Eigen::Quaterniond quaternion(rotation);
+  quaternion.normalize();
+  if (quaternion.w() < 0.0) quaternion.coeffs() = -quaternion.coeffs();
+  const double sine = quaternion.vec().norm();
+  if (sine < 1e-10) return 2.0 * quaternion.vec();
+  return 2.0 * std::atan2(sine, quaternion.w()) / sine * quaternion.vec();
+}
+
+Pose perturb(const Pose& pose, const Vector6d& delta) {
+  Pose result = Pose::Identity();
+  result.translation() = pose.translation() + delta.head<3>();
+  result.linear() = expSo3(delta.tail<3>()) * pose.linear();
+  return result;
+}
+
+Vector6d difference(const Pose& to, const Pose& from) {
+  Vector6d delta;
+  delta.head<3>() = to.translation() - from.translation();
+  delta.tail<3>() = logSo3(to.linear() * from.linear().transpose());
+  return delta;
+}
+
+Matrix6d transportCovariance(const Matrix6d& covariance, const Eigen::Vector3d& offset_camera) {
+  Matrix6d jacobian = Matrix6d::Identity();
+  jacobian.topRightCorner<3, 3>() = -skew(offset_camera);
+  return jacobian * covariance * jacobian.transpose();
+}
+
+bool isValidPose(const Pose& pose) {
+  if (!pose.matrix().allFinite()) return false;
+  const Eigen::Matrix3d gram = pose.linear() * pose.linear().transpose();
+  return (gram - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-6 && pose.linear().determinant() > 0.0;
+}
+
+}  // namespace depth_object_tracker
