@@ -8,6 +8,7 @@ add_library(depth_object_tracker_core SHARED
   src/geometry/pose.cpp
   src/geometry/symmetry.cpp
   src/geometry/triangle_mesh.cpp
+  src/render/depth_renderer.cpp
   src/tracker/object_model.cpp
   src/tracker/object_tracker.cpp
   src/tracker/tracker_parameters.cpp

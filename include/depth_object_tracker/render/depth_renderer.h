@@ -6,6 +6,7 @@
 #include "depth_object_tracker/geometry/pose.h"
 #include "depth_object_tracker/geometry/triangle_mesh.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -15,16 +16,17 @@ constexpr double kNearPlaneM = 0.05;  ///< surfaces nearer to the camera than th
 
 /// One pixel of the image that the object covers.
 struct CoveredPixel {
-  std::int32_t index;     ///< row * camera.width + col
-  std::uint32_t triangle; ///< index of the nearest triangle
-  float depth;            ///< [m] along the optical axis
+  std::int32_t row;
+  std::int32_t col;
+  std::uint32_t triangle;  ///< index of the nearest triangle
+  float depth;             ///< [m] along the optical axis
 };
 
-/// Renders one mesh. Holds scratch memory: use one renderer per thread; after the first call nothing is allocated unless
-/// an object covers more pixels than ever before. Renders only the region that the object can cover.
+/// Renders one mesh. Holds scratch memory: use one renderer per thread. After warm-up nothing is allocated unless the image
+/// grows or the object covers more pixels than ever before. Touches only the region that the object covers.
 class DepthRenderer {
  public:
-  /// The mesh is copied into a layout of its own; triangles are two-sided.
+  /// The mesh is copied into a layout of its own; triangles are two-sided, indices must be valid.
   explicit DepthRenderer(const TriangleMesh& mesh);
 
   /// Pixels covered by the mesh at a pose, row by row, left to right. The reference stays valid until the next call.
@@ -32,23 +34,27 @@ class DepthRenderer {
   const std::vector<CoveredPixel>& render(const Pose& T_camera_object, const PinholeCamera& camera);
 
  private:
-  struct ImageTriangle;
-  void projectVertices(const Pose& T_camera_object, const PinholeCamera& camera);
-  void drawTriangles(const PinholeCamera& camera);
-  void drawTriangle(const Eigen::Vector3d (&corners)[3], std::uint32_t triangle, const PinholeCamera& camera);
-  void drawClipped(const Eigen::Vector3d (&corners)[3], std::uint32_t triangle, const PinholeCamera& camera);
-  void collectCovered(const PinholeCamera& camera);
-  Eigen::Vector3d cornerInCamera(std::uint32_t vertex) const;
+  using Corners = std::array<Eigen::Vector3d, 3>;  // camera frame
+  struct Rectangle {
+    int min_row, max_row, min_col, max_col;  // inclusive
+  };
 
-  // Vertices in the object frame and, after projectVertices, in the camera, structure of arrays.
-  std::vector<float> object_x_, object_y_, object_z_;
-  std::vector<float> u_, v_, z_;
+  void projectVertices();
+  void drawTriangles();
+  Corners cornersInCamera(std::uint32_t triangle) const;
+  void drawClipped(const Corners& corners, std::uint32_t triangle);
+  void drawVisible(const Corners& corners, const Eigen::Vector3d& plane, std::uint32_t triangle);
+  void collectCovered();
+
+  std::vector<float> object_x_, object_y_, object_z_;  // vertices, object frame
+  std::vector<float> u_, v_, z_;                       // the same, projected for this pose
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   Pose T_camera_object_ = Pose::Identity();
+  PinholeCamera camera_;
 
-  std::vector<float> depth_buffer_;              // image size; infinity where empty between calls
-  std::vector<std::uint32_t> triangle_buffer_;   // image size
-  int min_row_ = 0, max_row_ = -1, min_col_ = 0, max_col_ = -1;  // rectangle drawn in
+  std::vector<float> depth_buffer_;  // image size; infinity everywhere between calls
+  std::vector<std::uint32_t> triangle_buffer_;
+  Rectangle drawn_{0, -1, 0, -1};
   std::vector<CoveredPixel> covered_;
 };
 
