@@ -11,6 +11,8 @@ add_library(depth_object_tracker_core SHARED
   src/render/depth_renderer.cpp
   src/tracker/object_model.cpp
   src/tracker/object_tracker.cpp
+  src/tracker/parameter_binding.cpp
+  src/tracker/tracker_config_file.cpp
   src/tracker/tracker_parameters.cpp
   src/tracker/tracker_result.cpp
 )

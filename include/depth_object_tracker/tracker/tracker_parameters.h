@@ -30,6 +30,10 @@ ParameterValue getTrackerParameter(const TrackerConfig& config, const std::strin
 /// @throws std::invalid_argument naming key, value, valid range and, for an unknown key, the nearest known one.
 void setTrackerParameter(TrackerConfig& config, const std::string& name, const ParameterValue& value);
 
+/// Checks every parameter's range and those that depend on each other.
+/// @throws std::invalid_argument as setTrackerParameter does.
+void validateTrackerConfig(const TrackerConfig& config);
+
 /// Reads a YAML file: a flat map of parameters, or the same below a single top-level key `tracker`.
 /// @throws std::invalid_argument naming the file besides what setTrackerParameter names.
 TrackerConfig loadTrackerConfig(const std::string& yaml_file);

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The table of parameters: one line per field of TrackerConfig. A new field needs a line here and one in config/tracker.yaml.
+#include "depth_object_tracker/tracker/tracker_parameters.h"
+
+#include "parameter_binding.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+namespace depth_object_tracker {
+namespace {
+
+using Bindings = std::vector<ParameterBinding>;
+
+/// Name and accessor of a field; the key of the parameter is the field's name.
+#define FIELD(group, member) #member, +[](TrackerConfig& config) -> decltype(config.group.member)& { return config.group.member; }
+/// The same, with a key that differs from the field's name.
+#define FIELD_AS(key, group, member) key, +[](TrackerConfig& config) -> decltype(config.group.member)& { return config.group.member; }
+
+// clang-format off
+Bindings measurementBindings() {
+  return {
+    bindChoice<OccluderModel>(FIELD(pixel, occluder_model), {{"consistent", OccluderModel::kConsistent}, {"paper", OccluderModel::kPaper}},
+               "density of occluders: consistent = independent of the object; paper = renormalised to lie in front of it"),
+    bindNumber(FIELD(pixel, object_noise_stddev_m), 1e-5, 0.1, "how far the mesh is from the real surface"),
+    bindNumber(FIELD(pixel, depth_noise_per_m), 0.0, 0.1, "depth noise of the camera: standard deviation = this * depth^2"),
+    bindNumber(FIELD(pixel, tail_weight), 1e-6, 0.5, "share of readings that may be anything between 0 and max_depth_m"),
+    bindNumber(FIELD(pixel, max_depth_m), 0.1, 100.0, "readings beyond are treated as missing"),
+    bindNumber(FIELD(pixel, occluder_half_life_m), 0.01, 100.0, "distance over which the density of occluders halves"),
+    bindNumber(FIELD(occlusion, p_visible_given_visible), 0.001, 0.999, "probability that a visible pixel is visible one second later; more than p_visible_given_occluded"),
+    bindNumber(FIELD(occlusion, p_visible_given_occluded), 0.001, 0.999, "probability that an occluded pixel is visible one second later"),
+    bindNumber(FIELD(occlusion, initial_p_occluded), 0.0, 1.0, "probability that a pixel is occluded before anything is known"),
+  };
+}
+
+Bindings processBindings() {
+  return {
+    bindNumber(FIELD(process, position_noise_m_per_sqrt_s), 1e-5, 10.0, "random motion of a free object: standard deviation after 1 s, each axis"),
+    bindNumber(FIELD(process, rotation_noise_rad_per_sqrt_s), 1e-5, 30.0, "random rotation of a free object: standard deviation after 1 s, each axis"),
+    bindNumber(FIELD(process, sudden_motion_share), 0.0, 0.5, "share of frames with motion far beyond; 0 = none (the paper)"),
+    bindNumber(FIELD(process, sudden_motion_scale), 1.0, 100.0, "how many times wider the motion is then"),
+    bindNumber(FIELD(process, velocity_half_life_s), 0.0, 10.0, "time over which a remembered velocity halves; 0 = no velocity (the paper)"),
+    bindNumber(FIELD(process, grasped_position_noise_m_per_sqrt_s), 1e-5, 10.0, "random motion of an object that a robot holds"),
+    bindNumber(FIELD(process, grasped_rotation_noise_rad_per_sqrt_s), 1e-5, 30.0, "random rotation of an object that a robot holds"),
+    bindNumber(FIELD(process, grasped_position_bias_m_per_s), 0.0, 1.0, "constant error of the robot's linear velocity, standard deviation"),
+    bindNumber(FIELD(process, grasped_rotation_bias_rad_per_s), 0.0, 10.0, "constant error of the robot's angular velocity, standard deviation"),
+    bindNumber(FIELD(process, max_gap_s), 0.01, 60.0, "longer gaps between images count as this long, with zero velocity"),
+  };
+}
+
+Bindings filterBindings() {
+  return {
+    bindChoice<Proposal>(FIELD(filter, proposal), {{"informed", Proposal::kInformed}, {"process", Proposal::kProcess}},
+               "where particles are drawn: informed = process model times a fit to the image; process = process model alone (the paper)"),
+    bindNumber(FIELD(filter, num_particles), 1, 100000, "number of particles"),
+    bindNumber(FIELD(filter, prior_share), 0.0, 1.0, "informed: share of particles that still draw from the process model alone"),
+    bindNumber(FIELD(filter, likelihood_exponent), 0.0, 1.0, "power of each frame's likelihood (pixels are not independent); 1 = the paper, 0 = chosen from the sampling factor"),
+    bindNumber(FIELD(filter, resampling_threshold), 0.0, 1.0, "resample when the effective share of particles is below; 1 = every frame (the paper)"),
+    bindNumber(FIELD(filter, seed), 0, std::numeric_limits<int>::max(), "seed of the random numbers: the same seed gives the same result"),
+    bindNumber(FIELD(filter, num_threads), 1, 256, "number of threads; the result does not depend on it"),
+  };
+}
+
+Bindings operationBindings() {
+  return {
+    bindNumberOrWord(FIELD(resolution, downsampling), 0, 64, "auto", 0, "every n-th pixel of every n-th row is used; 0 or auto = chosen from the object's size in the image"),
+    bindNumber(FIELD(resolution, target_model_pixels), 50, 1000000, "automatic downsampling: number of object pixels aimed at"),
+    bindNumber(FIELD_AS("initial_position_stddev_m", initialisation, position_stddev_m), 1e-5, 10.0, "spread around an initial pose that comes without covariance, each axis"),
+    bindNumber(FIELD_AS("initial_rotation_stddev_rad", initialisation, rotation_stddev_rad), 1e-5, 10.0, "spread around an initial pose that comes without covariance, each axis"),
+    bindNumber(FIELD(status, occluded_below_visible_fraction), 0.0, 1.0, "OCCLUDED when less of the object than this share is believed visible"),
+    bindNumber(FIELD(status, lost_below_score), 0.0, 1.0, "LOST when the score stays below this for lost_after_s"),
+    bindNumber(FIELD(status, lost_after_s), 0.0, 60.0, "time for which the score must stay below lost_below_score"),
+  };
+}
+// clang-format on
+
+#undef FIELD
+#undef FIELD_AS
+
+const Bindings& bindings() {
+  static const Bindings all = [] {
+    Bindings list;
+    for (Bindings (*group)() : {measurementBindings, processBindings, filterBindings, operationBindings}) {
+      for (ParameterBinding& binding : group()) list.push_back(std::move(binding));
+    }
+    return list;
+  }();
+  return all;
+}
+
+/// Number of letters to insert, delete or replace to turn one word into the other.
+std::size_t editDistance(const std::string& from, const std::string& to) {
+  std::vector<std::size_t> row(to.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < to.size(); ++j) {
+      const std::size_t replaced = diagonal + (from[i] == to[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+const ParameterBinding& findBinding(const std::string& name) {
+  const ParameterBinding* nearest = nullptr;
+  std::size_t nearest_distance = std::numeric_limits<std::size_t>::max();
+  for (const ParameterBinding& binding : bindings()) {
+    if (binding.info.name == name) return binding;
+    // Nobody types names of that length: bounds the work for hostile keys.
+    const std::size_t distance = editDistance(name.substr(0, 100), binding.info.name);
+    if (distance < nearest_distance) nearest = &binding, nearest_distance = distance;
+  }
+  throw std::invalid_argument("parameter `" + name + "` is unknown; the nearest known one is `" + nearest->info.name + "`");
+}
+
+}  // namespace
+
+std::vector<ParameterInfo> listTrackerParameters() {
+  std::vector<ParameterInfo> list;
+  for (const ParameterBinding& binding : bindings()) list.push_back(binding.info);
+  return list;
+}
+
+ParameterValue getTrackerParameter(const TrackerConfig& config, const std::string& name) {
+  return findBinding(name).get(config);
+}
+
+void setTrackerParameter(TrackerConfig& config, const std::string& name, const ParameterValue& value) {
+  findBinding(name).set(config, value);
+}
+
+void validateTrackerConfig(const TrackerConfig& config) {
+  TrackerConfig scratch;
+  for (const ParameterBinding& binding : bindings()) binding.set(scratch, binding.get(config));
+  // A chain that alternates has no power of dt: it could not be split into shorter steps.
+  if (config.occlusion.p_visible_given_visible <= config.occlusion.p_visible_given_occluded) {
+    throwOutOfRange("p_visible_given_visible", config.occlusion.p_visible_given_visible,
+                    "more than p_visible_given_occluded (" +
+                        formatParameterValue(config.occlusion.p_visible_given_occluded) + ")");
+  }
+}
+
+}  // namespace depth_object_tracker
