@@ -1,1 +1,27 @@
-# tools targets
+# depth_object_tracker_tools and the command-line programs. Know no ROS.
+find_package(nlohmann_json 3.7 REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(OpenCV REQUIRED COMPONENTS core imgcodecs)
+
+add_library(depth_object_tracker_tools SHARED
+  src/tools/bop_models_info.cpp
+  src/tools/bop_scene.cpp
+  src/tools/depth_picture.cpp
+  src/tools/estimate_csv.cpp
+  src/tools/json_file.cpp
+  src/tools/nearest_point_index.cpp
+  src/tools/occlusion_picture.cpp
+  src/tools/pose_error.cpp
+  src/tools/progress_bar.cpp
+  src/tools/sequence_run.cpp
+  src/tools/sequence_summary.cpp
+  src/tools/trace_writer.cpp
+  src/tools/track_sequence_options.cpp
+  src/tools/visibility_file.cpp
+)
+target_link_libraries(depth_object_tracker_tools
+  PUBLIC depth_object_tracker_core
+  PRIVATE depth_object_tracker_warnings nlohmann_json::nlohmann_json CLI11::CLI11 opencv_core opencv_imgcodecs)
+
+add_executable(track_sequence src/tools/track_sequence.cpp)
+target_link_libraries(track_sequence PRIVATE depth_object_tracker_tools depth_object_tracker_warnings)

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs the tracker over a scene folder and writes what it says.
+#include "depth_object_tracker/tools/sequence_run.h"
+
+#include "depth_object_tracker/tools/bop_models_info.h"
+#include "depth_object_tracker/tools/bop_scene.h"
+#include "depth_object_tracker/tools/depth_picture.h"
+#include "depth_object_tracker/tools/estimate_csv.h"
+#include "depth_object_tracker/tools/input_error.h"
+#include "depth_object_tracker/tools/occlusion_picture.h"
+#include "depth_object_tracker/tools/progress_bar.h"
+#include "depth_object_tracker/tools/sequence_summary.h"
+#include "depth_object_tracker/tools/trace_writer.h"
+#include "depth_object_tracker/tracker/object_tracker.h"
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+namespace depth_object_tracker {
+namespace {
+
+namespace fs = std::filesystem;
+
+void warn(const std::string& message) {
+  std::cerr << "warning: " << message << std::endl;
+}
+
+Symmetries readSymmetries(const TrackSequenceOptions& options) {
+  const std::string by_default = (fs::path(options.scene) / "models_info.json").string();
+  if (options.models_info.empty() && !fs::exists(by_default)) return {};
+  const std::string file = options.models_info.empty() ? by_default : options.models_info;
+  const std::optional<Symmetries> symmetries = loadBopSymmetries(file, options.object_id, options.mesh_scale);
+  if (!symmetries)
+    warn(file + " has no entry \"" + std::to_string(options.object_id) + "\": no symmetries (see --object-id)");
+  return symmetries.value_or(Symmetries{});
+}
+
+ObjectModel loadObjectModel(const TrackSequenceOptions& options) {
+  ObjectDescription description;
+  description.name = fs::path(options.mesh).stem().string();
+  description.mesh = options.mesh;
+  description.mesh_scale = options.mesh_scale;
+  description.symmetries = readSymmetries(options);
+  return loadObject(description);
+}
+
+Pose chooseInitialPose(const TrackSequenceOptions& options, const BopScene& scene) {
+  if (!options.init.empty()) return loadPoseFile(options.init);
+  if (scene.first_truth) return *scene.first_truth;
+  throw InputError("no initial pose: give --init FILE.json, or scene_gt.json with object " +
+                   std::to_string(options.object_id) + " in " + scene.folder);
+}
+
+/// Width and height of the first picture that can be read: what all others are measured by.
+DepthPicture firstReadablePicture(const std::vector<SceneFrame>& frames) {
+  std::string first_problem;
+  for (const SceneFrame& frame : frames) {
+    try {
+      return readDepthPicture(frame.depth_path);
+    } catch (const InputError& error) {
+      if (first_problem.empty()) first_problem = error.what();
+    }
+  }
+  throw InputError("no frame has a depth picture that can be read; the first: " + first_problem);
+}
+
+/// The frame's picture; a missing or bad one becomes an all-missing picture.
+DepthPicture readFrame(const SceneFrame& frame, int width, int height, int& num_missing) {
+  if (!fs::exists(frame.depth_path)) {
+    ++num_missing;
+    return emptyDepthPicture(width, height);
+  }
+  try {
+    DepthPicture picture = readDepthPicture(frame.depth_path);
+    if (picture.width == width && picture.height == height) return picture;
+    throw InputError(frame.depth_path + " has " + std::to_string(picture.width) + " x " +
+                     std::to_string(picture.height) + " pixels, the frames before it " + std::to_string(width) + " x " +
+                     std::to_string(height));
+  } catch (const InputError& error) {
+    warn(std::string(error.what()) + "; taken for a frame without any reading");
+    return emptyDepthPicture(width, height);
+  }
+}
+
+/// Everything that one run writes.
+class RunOutputs {
+ public:
+  RunOutputs(const TrackSequenceOptions& options, int scene_id)
+      : estimates_(options.output, scene_id, options.object_id), occlusion_folder_(options.occlusion_dir) {
+    if (!options.trace.empty()) trace_.emplace(options.trace);
+    if (occlusion_folder_.empty()) return;
+    std::error_code problem;
+    fs::create_directories(occlusion_folder_, problem);
+    if (!fs::is_directory(occlusion_folder_)) throw InputError("cannot make the folder " + occlusion_folder_);
+  }
+
+  void write(int frame, const TrackerResult& result, const ObjectTracker& tracker, int width, int height) {
+    estimates_.write(frame, result);
+    if (trace_) trace_->write(frame, result);
+    if (!occlusion_folder_.empty()) writeOcclusion(frame, result, tracker, width, height);
+  }
+
+  void close() {
+    estimates_.close();
+    if (trace_) trace_->close();
+  }
+
+ private:
+  void writeOcclusion(int frame, const TrackerResult& result, const ObjectTracker& tracker, int width,
+                      int height) const {
+    const bool has_object = result.has_pose && result.state != TrackerState::kLost;
+    const std::vector<float> object_depth = has_object ? tracker.renderEstimate() : std::vector<float>{};
+    char name[32];
+    std::snprintf(name, sizeof(name), "%06d.png", frame);
+    writeGreyPng((fs::path(occlusion_folder_) / name).string(),
+                 makeOcclusionPicture(tracker.occlusionMap(), object_depth, width, height,
+                                      tracker.config().occlusion.initial_p_occluded),
+                 width, height);
+  }
+
+  EstimateCsvWriter estimates_;
+  std::optional<TraceWriter> trace_;
+  std::string occlusion_folder_;
+};
+
+TrackerResult updateTimed(ObjectTracker& tracker, const DepthPicture& picture, const PinholeCamera& camera,
+                          const SceneFrame& frame) {
+  const auto start = std::chrono::steady_clock::now();
+  TrackerResult result = tracker.update(picture.view(frame.depth_unit_m), camera, frame.stamp_s, frame.control);
+  result.time.total_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+void trackFrames(const std::vector<SceneFrame>& frames, ObjectTracker& tracker, const Pose& initial_pose,
+                 RunOutputs& outputs, const PoseErrorMeter& meter, SequenceSummary& summary) {
+  const DepthPicture first = firstReadablePicture(frames);
+  ProgressBar progress(frames.size());
+  int num_missing = 0;
+  Pose last_pose = initial_pose;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const SceneFrame& frame = frames[k];
+    const DepthPicture picture = readFrame(frame, first.width, first.height, num_missing);
+    PinholeCamera camera = frame.camera;
+    camera.width = picture.width;
+    camera.height = picture.height;
+    TrackerResult result = updateTimed(tracker, picture, camera, frame);
+    if (!result.has_pose) result.T_camera_object = last_pose;  // a row per frame, whatever happens
+    last_pose = result.T_camera_object;
+    outputs.write(frame.id, result, tracker, picture.width, picture.height);
+    std::optional<PoseError> error;
+    if (frame.T_camera_object_truth) error = meter.measure(result.T_camera_object, *frame.T_camera_object_truth);
+    summary.add(result, error, frame.visible_fraction);
+    progress.update(k + 1);
+  }
+  if (num_missing > 0)
+    warn(std::to_string(num_missing) + " of " + std::to_string(frames.size()) + " frames have no depth picture");
+}
+
+}  // namespace
+
+void runSequence(const TrackSequenceOptions& options) {
+  const TrackerConfig config = makeTrackerConfig(options);
+  const BopScene scene = loadBopScene(options.scene, {options.object_id, options.fps, !options.no_control});
+  for (const std::string& warning : scene.warnings) warn(warning);
+  const Pose initial_pose = chooseInitialPose(options, scene);
+
+  ObjectTracker tracker(loadObjectModel(options), config);
+  tracker.initialise(initial_pose);
+  const PoseErrorMeter meter(tracker.object().mesh, tracker.object().symmetries);
+  RunOutputs outputs(options, scene.scene_id);
+  SequenceSummary summary(meter.symmetric());
+  trackFrames(everyNthFrame(scene.frames, options.stride), tracker, initial_pose, outputs, meter, summary);
+  outputs.close();
+  summary.print(std::cout);
+}
+
+}  // namespace depth_object_tracker
