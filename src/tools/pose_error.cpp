@@ -2,7 +2,11 @@
 // Distance between an estimated and a true pose as the object's points see it.
 #include "depth_object_tracker/tools/pose_error.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+
 #include <algorithm>
+#include <cmath>
 
 namespace depth_object_tracker {
 namespace {
@@ -23,6 +27,14 @@ std::vector<Eigen::Vector3f> chooseVertices(const TriangleMesh& mesh, std::size_
   return chosen;
 }
 
+/// How the mesh origin's pose changes when the object turns about its symmetry axis (camera axes).
+Vector6d freeDirection(const Pose& T_camera_object, const SymmetryAxis& symmetry) {
+  const Eigen::Vector3d axis = T_camera_object.linear() * symmetry.axis;
+  Vector6d direction;
+  direction << axis.cross(T_camera_object.linear() * -symmetry.offset), axis;
+  return direction;
+}
+
 }  // namespace
 
 PoseErrorMeter::PoseErrorMeter(const TriangleMesh& mesh, Symmetries symmetries)
@@ -35,6 +47,25 @@ double PoseErrorMeter::meanNearestDistance(const Pose& T_truth_estimate) const {
   double sum = 0.0;
   for (const Eigen::Vector3f& p_object : points_) sum += static_cast<double>(index_.distance(T * p_object));
   return sum / static_cast<double>(points_.size());
+}
+
+std::optional<double> PoseErrorMeter::normalisedErrorSquared(const Pose& T_camera_object_estimate,
+                                                             const Matrix6d& covariance,
+                                                             const Pose& T_camera_object_truth) const {
+  const Pose T_folded = symmetric() ? foldOntoReference(T_camera_object_estimate, T_camera_object_truth, symmetries_)
+                                    : T_camera_object_estimate;
+  const Vector6d error = difference(T_camera_object_truth, T_folded);
+  Eigen::MatrixXd basis = Matrix6d::Identity();
+  if (degreesOfFreedom() == 5) {
+    const Eigen::Matrix<double, 6, 1> free = freeDirection(T_camera_object_estimate, symmetries_.continuous.front());
+    const Matrix6d q = free.householderQr().householderQ();
+    basis = q.rightCols<5>();
+  }
+  const Eigen::VectorXd e = basis.transpose() * error;
+  const Eigen::LLT<Eigen::MatrixXd> factor(basis.transpose() * covariance * basis);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  const double squared = e.dot(factor.solve(e));
+  return std::isfinite(squared) ? std::optional<double>(squared) : std::nullopt;
 }
 
 PoseError PoseErrorMeter::measure(const Pose& T_camera_object_estimate, const Pose& T_camera_object_truth) const {

@@ -150,8 +150,12 @@ void trackFrames(const std::vector<SceneFrame>& frames, ObjectTracker& tracker, 
     last_pose = result.T_camera_object;
     outputs.write(frame.id, result, tracker, picture.width, picture.height);
     std::optional<PoseError> error;
-    if (frame.T_camera_object_truth) error = meter.measure(result.T_camera_object, *frame.T_camera_object_truth);
-    summary.add(result, error, frame.visible_fraction);
+    std::optional<double> squared;
+    if (frame.T_camera_object_truth) {
+      error = meter.measure(result.T_camera_object, *frame.T_camera_object_truth);
+      squared = meter.normalisedErrorSquared(result.T_camera_object, result.covariance, *frame.T_camera_object_truth);
+    }
+    summary.add(result, error, squared, frame.visible_fraction);
     progress.update(k + 1);
   }
   if (num_missing > 0)
@@ -170,7 +174,7 @@ void runSequence(const TrackSequenceOptions& options) {
   tracker.initialise(initial_pose);
   const PoseErrorMeter meter(tracker.object().mesh, tracker.object().symmetries);
   RunOutputs outputs(options, scene.scene_id);
-  SequenceSummary summary(meter.symmetric());
+  SequenceSummary summary(meter.symmetric(), meter.degreesOfFreedom());
   trackFrames(everyNthFrame(scene.frames, options.stride), tracker, initial_pose, outputs, meter, summary);
   outputs.close();
   summary.print(std::cout);

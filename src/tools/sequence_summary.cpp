@@ -37,14 +37,15 @@ double areaUnderAccuracyCurve(const std::vector<double>& errors_m, double limit_
 }
 
 void SequenceSummary::add(const TrackerResult& result, const std::optional<PoseError>& error,
-                          std::optional<double> visible_fraction) {
+                          std::optional<double> normalised_error_squared, std::optional<double> visible_fraction) {
   has_visibility_ = has_visibility_ || visible_fraction.has_value();
   const bool in_sight = visible_fraction.value_or(1.0) >= kMinVisibleFraction;
   // Before the first frame the object is taken for visible: the tracker is given its pose.
   visible_run_ = in_sight ? visible_run_ + 1 : 0;
   const bool visible_longer =
       visible_run_ >= kVisibleFramesBeforeLoss || visible_run_ > static_cast<int>(frames_.size());
-  frames_.push_back({result.state, result.time.total_s, error, error.has_value() && in_sight, visible_longer});
+  frames_.push_back({result.state, result.time.total_s, error, normalised_error_squared, error.has_value() && in_sight,
+                     visible_longer});
 }
 
 SequenceSummary::Losses SequenceSummary::losses() const {
@@ -112,6 +113,19 @@ void SequenceSummary::printErrors(std::ostream& out) const {
   const Losses lost = losses();
   out << "  losses (" << (symmetric_ ? "ADD-S" : "ADD") << " over 5 cm for more than 15 frames): " << lost.episodes
       << ", " << lost.frames << " frames\n";
+}
+
+void SequenceSummary::printCalibration(std::ostream& out) const {
+  const double limit = degrees_of_freedom_ == 5 ? 11.0705 : 12.5916;  // 95 % of the chi-square distribution
+  std::vector<double> values;
+  for (const Frame& frame : frames_) {
+    if (frame.judged && frame.normalised_error_squared) values.push_back(*frame.normalised_error_squared);
+  }
+  if (values.empty()) return;
+  const auto inside = std::count_if(values.begin(), values.end(), [limit](double value) { return value <= limit; });
+  out << format("  truth inside the 95 %% region: %.1f %% of frames, NEES median %.2f (%d degrees of freedom)\n",
+                100.0 * static_cast<double>(inside) / static_cast<double>(values.size()), percentile(values, 0.5),
+                degrees_of_freedom_);
 }
 
 void SequenceSummary::print(std::ostream& out) const {

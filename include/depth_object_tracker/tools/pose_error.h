@@ -7,6 +7,7 @@
 #include "depth_object_tracker/geometry/triangle_mesh.h"
 #include "depth_object_tracker/tools/nearest_point_index.h"
 
+#include <optional>
 #include <vector>
 
 namespace depth_object_tracker {
@@ -28,6 +29,15 @@ class PoseErrorMeter {
   PoseErrorMeter(const TriangleMesh& mesh, Symmetries symmetries);
 
   PoseError measure(const Pose& T_camera_object_estimate, const Pose& T_camera_object_truth) const;
+
+  /// Normalised estimation error squared: e^T C^-1 e with e = [t_gt - t_est; Log(R_gt R_est^T)], folded onto the truth
+  /// where symmetries are declared. One continuous symmetry leaves its free direction out (5 degrees of freedom instead
+  /// of 6). nullopt when the covariance is not positive definite.
+  std::optional<double> normalisedErrorSquared(const Pose& T_camera_object_estimate, const Matrix6d& covariance,
+                                               const Pose& T_camera_object_truth) const;
+
+  /// Of normalisedErrorSquared().
+  int degreesOfFreedom() const { return symmetries_.continuous.size() == 1 ? 5 : 6; }
 
   bool symmetric() const { return !symmetries_.empty(); }
 

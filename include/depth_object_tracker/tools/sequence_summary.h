@@ -28,11 +28,15 @@ class SequenceSummary {
   static constexpr int kVisibleFramesBeforeLoss = 10;  ///< nobody can know where a hidden object went
 
   /// @param symmetric ADD-S is the error that counts, not ADD.
-  explicit SequenceSummary(bool symmetric) : symmetric_(symmetric) {}
+  /// @param degrees_of_freedom of the normalised errors, 5 or 6.
+  SequenceSummary(bool symmetric, int degrees_of_freedom)
+      : symmetric_(symmetric), degrees_of_freedom_(degrees_of_freedom) {}
 
   /// @param error nullopt where there is no ground truth.
   /// @param visible_fraction nullopt where nobody says.
-  void add(const TrackerResult& result, const std::optional<PoseError>& error, std::optional<double> visible_fraction);
+  /// @param normalised_error_squared nullopt where there is none.
+  void add(const TrackerResult& result, const std::optional<PoseError>& error,
+           std::optional<double> normalised_error_squared, std::optional<double> visible_fraction);
 
   /// Frames in losses and their number.
   struct Losses {
@@ -49,6 +53,7 @@ class SequenceSummary {
     TrackerState state;
     double time_s;
     std::optional<PoseError> error;
+    std::optional<double> normalised_error_squared;
     bool judged;          // has ground truth and enough of the object in sight
     bool visible_longer;  // in sight for kVisibleFramesBeforeLoss frames
   };
@@ -57,7 +62,10 @@ class SequenceSummary {
   void printErrors(std::ostream& out) const;
   void printRow(std::ostream& out, const std::string& name, const std::vector<double>& values, double scale) const;
 
+  void printCalibration(std::ostream& out) const;
+
   bool symmetric_;
+  int degrees_of_freedom_;
   bool has_visibility_ = false;
   int visible_run_ = 0;
   std::vector<Frame> frames_;
