@@ -3,16 +3,33 @@ find_package(assimp REQUIRED)
 find_package(yaml-cpp REQUIRED)
 
 add_library(depth_object_tracker_core SHARED
+  src/filter/depth_likelihood.cpp
+  src/filter/gaussian6.cpp
+  src/filter/informed_proposal.cpp
+  src/filter/mode_search.cpp
+  src/filter/occlusion_memory.cpp
+  src/filter/particle_filter.cpp
+  src/filter/pose_statistics.cpp
+  src/filter/random.cpp
+  src/filter/resampling.cpp
+  src/filter/worker_pool.cpp
   src/geometry/mesh_loader.cpp
   src/geometry/pinhole_camera.cpp
   src/geometry/pose.cpp
   src/geometry/symmetry.cpp
   src/geometry/triangle_mesh.cpp
+  src/model/measured_image.cpp
+  src/model/occlusion_chain.cpp
+  src/model/pixel_likelihood.cpp
+  src/model/process_model.cpp
   src/render/depth_renderer.cpp
+  src/tracker/frame_clock.cpp
   src/tracker/object_model.cpp
   src/tracker/object_tracker.cpp
   src/tracker/parameter_binding.cpp
   src/tracker/tracker_config_file.cpp
+  src/tracker/resolution.cpp
+  src/tracker/status_monitor.cpp
   src/tracker/tracker_parameters.cpp
   src/tracker/tracker_result.cpp
 )

@@ -1,41 +1,262 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/tracker/object_tracker.h"
 
+#include "depth_object_tracker/filter/depth_likelihood.h"
+#include "depth_object_tracker/filter/particle_filter.h"
+#include "depth_object_tracker/filter/stopwatch.h"
+#include "depth_object_tracker/tracker/frame_clock.h"
+#include "depth_object_tracker/tracker/resolution.h"
+#include "depth_object_tracker/tracker/status_monitor.h"
+
+#include <cmath>
+#include <stdexcept>
+
 namespace depth_object_tracker {
+namespace {
+
+// Spread of an angle that nothing can be known of.
+constexpr double kFreeAngleVariance = M_PI * M_PI / 3.0;
+
+Symmetries aboutCentre(Symmetries symmetries, const Eigen::Vector3d& centre_object) {
+  for (SymmetryAxis& axis : symmetries.continuous) axis.offset -= centre_object;
+  for (Pose& pose : symmetries.discrete) {
+    pose.translation() += pose.linear() * centre_object - centre_object;
+  }
+  return symmetries;
+}
+
+double objectRadius(const TriangleMesh& mesh, const Eigen::Vector3d& centre) {
+  double sum = 0.0;
+  for (const Eigen::Vector3f& vertex : mesh.vertices) sum += (vertex.cast<double>() - centre).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(mesh.vertices.size()));
+}
+
+/// Throws when the object cannot be tracked, before anything is built from it.
+const ObjectModel& checked(const ObjectModel& object) {
+  if (object.mesh.triangles.empty()) throw std::invalid_argument("object '" + object.name + "' has a mesh without triangles");
+  return object;
+}
+
+}  // namespace
 
 class ObjectTracker::Implementation {
  public:
+  Implementation(ObjectModel object_model, const TrackerConfig& tracker_config)
+      : object(std::move(object_model)),
+        config(tracker_config),
+        centre_object(surfaceCentroid(checked(object).mesh)),
+        diameter_m(diameter(object.mesh)),
+        likelihood(object.mesh, centre_object, config.pixel, config.occlusion, config.filter.num_particles,
+                   config.filter.num_threads),
+        filter(config.filter, objectRadius(object.mesh, centre_object), aboutCentre(object.symmetries, centre_object)),
+        resolution(config.resolution),
+        status(config.status) {}
+
+  TrackerResult update(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s,
+                       const std::optional<ControlInput>& control);
+
+  Pose toObject(const Pose& T_camera_centre) const {
+    Pose T_camera_object = T_camera_centre;
+    T_camera_object.translation() -= T_camera_centre.linear() * centre_object;
+    return T_camera_object;
+  }
+  Pose toCentre(const Pose& T_camera_object) const {
+    return T_camera_object * Eigen::Translation3d(centre_object);
+  }
+
   ObjectModel object;
   TrackerConfig config;
+  Eigen::Vector3d centre_object;
+  double diameter_m;
+  DepthLikelihood likelihood;
+  ParticleFilter filter;
+  ResolutionChooser resolution;
+  StatusMonitor status;
+  FrameClock clock;
+  std::optional<Vector6d> initial_variances;  // set by initialise, used by the next image
+  double full_resolution_pixels = 0.0;        // that the object covers
+  PinholeCamera camera_in_use;
   TrackerResult result;
+
+ private:
+  bool checkInput(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s);
+  FrameClock::Step advanceClock(double stamp_s);
+  double diffusionScale() const;
+  void writeEstimate(const FilterEstimate& estimate);
+  void writeStatus(const PoseAssessment& assessment);
 };
 
-ObjectTracker::ObjectTracker(ObjectModel object, const TrackerConfig& config)
-    : implementation_(std::make_unique<Implementation>()) {
-  implementation_->object = std::move(object);
-  implementation_->config = config;
+TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s,
+                                                    const std::optional<ControlInput>& control) {
+  Stopwatch stopwatch;
+  if (!checkInput(depth, camera, stamp_s)) return result;
+  if (status.state() == TrackerState::kUninitialized) return result;
+  const FrameClock::Step time = advanceClock(stamp_s);
+  if (time.event == FrameClock::Event::kDuplicate) return result;
+
+  const SamplingGrid grid = makeSamplingGrid(camera, resolution.choose(full_resolution_pixels));
+  likelihood.setImage(depth, grid, time.dt_s);
+
+  const ProcessStep step = initial_variances
+                               ? ProcessStep(config.process, *initial_variances)
+                               : ProcessStep(config.process, time.dt_s, control, centre_object, diffusionScale());
+  initial_variances.reset();
+  const double exponent = likelihoodExponent(config.filter, grid.factor);
+  const FilterEstimate estimate = filter.update(likelihood, step, exponent);
+  likelihood.setWeights(filter.weights());
+
+  const PoseAssessment assessment = likelihood.assess(estimate.pose.mean, 0);
+  full_resolution_pixels = assessment.covered_pixels * static_cast<double>(grid.factor * grid.factor);
+  status.update(assessment, time.dt_s);
+  result.grasped = control && control->grasped;
+  result.downsampling = grid.factor;
+  writeEstimate(estimate);
+  writeStatus(assessment);
+  result.time.total_s = stopwatch.lap();
+  return result;
 }
+
+bool ObjectTracker::Implementation::checkInput(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s) {
+  std::string problem = camera.findProblem();
+  const std::size_t pixel_size = depth.pixel_type == DepthImageView::PixelType::kUint16 ? 2 : 4;
+  if (problem.empty() && (depth.data == nullptr || depth.width != camera.width || depth.height != camera.height)) {
+    problem = "depth image is " + std::to_string(depth.width) + "x" + std::to_string(depth.height) + " but the camera model is " +
+              std::to_string(camera.width) + "x" + std::to_string(camera.height);
+  } else if (problem.empty() && depth.step < static_cast<std::size_t>(depth.width) * pixel_size) {
+    problem = "depth image has " + std::to_string(depth.step) + " bytes a row, too few for " + std::to_string(depth.width) + " pixels";
+  } else if (problem.empty() && !std::isfinite(stamp_s)) {
+    problem = "image stamp is not finite";
+  }
+  result.stamp_s = stamp_s;
+  result.state = status.state();
+  result.input = problem.empty() ? TrackerResult::Input::kUsed : TrackerResult::Input::kUnusable;
+  if (!problem.empty()) {
+    result.reason = problem;
+    return false;
+  }
+  if (camera != camera_in_use) full_resolution_pixels = 0.0;
+  camera_in_use = camera;
+  if (status.state() == TrackerState::kUninitialized) result.reason = "no initial pose was given yet";
+  return true;
+}
+
+FrameClock::Step ObjectTracker::Implementation::advanceClock(double stamp_s) {
+  const FrameClock::Step time = clock.advance(stamp_s);
+  if (time.event == FrameClock::Event::kDuplicate) {
+    result.input = TrackerResult::Input::kDuplicateStamp;
+  } else if (time.event == FrameClock::Event::kBackward) {
+    result.input = TrackerResult::Input::kTimeJumpedBack;
+    likelihood.resetOcclusion();
+    filter.stopMotion();
+    status.restart();
+    initial_variances = defaultInitialVariances(config.initialisation);
+  }
+  return time;
+}
+
+double ObjectTracker::Implementation::diffusionScale() const {
+  const double seen = config.process.diffusion_full_above_visible_fraction;
+  if (seen <= 0.0 || status.visibleFraction() >= seen) return 1.0;
+  const double share = status.visibleFraction() / seen;
+  return config.process.hidden_diffusion_scale + (1.0 - config.process.hidden_diffusion_scale) * share;
+}
+
+void ObjectTracker::Implementation::writeEstimate(const FilterEstimate& estimate) {
+  const Eigen::Matrix3d R = estimate.pose.mean.linear();
+  const Eigen::Vector3d origin_from_centre = -(R * centre_object);
+  Matrix6d covariance = estimate.pose.covariance;
+  const Symmetries symmetries = aboutCentre(object.symmetries, centre_object);
+  if (const auto axis = freeAxisInCamera(estimate.pose.mean, symmetries)) {
+    covariance.bottomRightCorner<3, 3>() += kFreeAngleVariance * (*axis) * axis->transpose();
+  }
+  result.has_pose = true;
+  result.T_camera_object = toObject(estimate.pose.mean);
+  result.covariance = transportCovariance(covariance, origin_from_centre);
+  result.twist = estimate.velocity;
+  result.twist.head<3>() += estimate.velocity.tail<3>().cross(origin_from_centre);
+  result.twist_covariance = transportCovariance(estimate.velocity_covariance, origin_from_centre);
+  result.effective_sample_size = estimate.effective_sample_size;
+  result.num_particles = config.filter.num_particles;
+  result.pose_evaluations = estimate.pose_evaluations;
+  result.time.proposal_s = estimate.time.proposal_s;
+  result.time.render_likelihood_s = estimate.time.likelihood_s;
+  result.time.resample_s = estimate.time.resample_s;
+}
+
+void ObjectTracker::Implementation::writeStatus(const PoseAssessment& assessment) {
+  result.state = status.state();
+  result.reason = status.reason();
+  result.visible_fraction = status.visibleFraction();
+  result.score = status.state() == TrackerState::kLost ? 0.0 : status.score();
+  result.log_likelihood = assessment.log_likelihood;
+  result.pixels = assessment.covered_pixels;
+  result.valid_pixel_fraction = likelihood.image().validFraction();
+}
+
+ObjectTracker::ObjectTracker(ObjectModel object, const TrackerConfig& config)
+    : implementation_(std::make_unique<Implementation>(std::move(object), config)) {}
 ObjectTracker::~ObjectTracker() = default;
 ObjectTracker::ObjectTracker(ObjectTracker&&) noexcept = default;
 ObjectTracker& ObjectTracker::operator=(ObjectTracker&&) noexcept = default;
 
 void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& covariance) {
-  implementation_->result.T_camera_object = T_camera_object;
-  implementation_->result.covariance = covariance;
-  implementation_->result.has_pose = true;
-  implementation_->result.state = TrackerState::kTracking;
+  Implementation& self = *implementation_;
+  const Pose T_camera_centre = self.toCentre(T_camera_object);
+  self.initial_variances = defaultInitialVariances(self.config.initialisation);
+  if (covariance.diagonal().cwiseAbs().maxCoeff() > 0.0) {
+    const Eigen::Vector3d centre_from_origin = T_camera_object.linear() * self.centre_object;
+    self.initial_variances = transportCovariance(covariance, centre_from_origin).diagonal();
+  }
+  self.filter.initialise(T_camera_centre);
+  self.likelihood.resetOcclusion();
+  self.clock.reset();
+  self.status.restart();
+  self.resolution.reset();
+  self.full_resolution_pixels = 0.0;
+  self.result = TrackerResult();
+  self.result.state = self.status.state();
+  self.result.reason = self.status.reason();
 }
-void ObjectTracker::reset() { implementation_->result = TrackerResult(); }
-TrackerResult ObjectTracker::update(const DepthImageView&, const PinholeCamera&, double stamp_s,
-                                    const std::optional<ControlInput>&) {
-  implementation_->result.stamp_s = stamp_s;
-  return implementation_->result;
+
+void ObjectTracker::reset() {
+  implementation_->status.reset();
+  implementation_->result = TrackerResult();
 }
-ParticlePoses ObjectTracker::particles() const { return {}; }
-OcclusionMap ObjectTracker::occlusionMap() const { return {}; }
-std::vector<float> ObjectTracker::renderEstimate() const { return {}; }
+
+TrackerResult ObjectTracker::update(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s,
+                                    const std::optional<ControlInput>& control) {
+  return implementation_->update(depth, camera, stamp_s, control);
+}
+
+ParticlePoses ObjectTracker::particles() const {
+  ParticlePoses particles;
+  if (!implementation_->result.has_pose) return particles;
+  for (const Pose& pose : implementation_->filter.poses()) particles.T_camera_object.push_back(implementation_->toObject(pose));
+  for (double weight : implementation_->filter.weights()) particles.weights.push_back(static_cast<float>(weight));
+  return particles;
+}
+
+OcclusionMap ObjectTracker::occlusionMap() const {
+  OcclusionMap map;
+  if (!implementation_->result.has_pose) return map;
+  map.grid = implementation_->likelihood.image().grid();
+  implementation_->likelihood.occlusionMap(implementation_->filter.poses(), implementation_->filter.weights(), map.p_occluded);
+  return map;
+}
+
+std::vector<float> ObjectTracker::renderEstimate() const {
+  const PinholeCamera& camera = implementation_->camera_in_use;
+  std::vector<float> depth(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height), 0.0f);
+  if (!implementation_->result.has_pose) return depth;
+  DepthRenderer renderer(implementation_->object.mesh);
+  for (const CoveredPixel& pixel : renderer.render(implementation_->result.T_camera_object, camera)) {
+    depth[static_cast<std::size_t>(pixel.row) * static_cast<std::size_t>(camera.width) + pixel.col] = pixel.depth;
+  }
+  return depth;
+}
+
 const ObjectModel& ObjectTracker::object() const { return implementation_->object; }
 const TrackerConfig& ObjectTracker::config() const { return implementation_->config; }
-double ObjectTracker::diameterM() const { return diameter(implementation_->object.mesh); }
+double ObjectTracker::diameterM() const { return implementation_->diameter_m; }
 
 }  // namespace depth_object_tracker

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finds where one frame's posterior is high: Gauss-Newton from several starts, and probes along directions depth leaves free.
+#pragma once
+
+#include "depth_object_tracker/filter/pose_likelihood.h"
+#include "depth_object_tracker/model/process_model.h"
+
+#include <vector>
+
+namespace depth_object_tracker {
+
+/// Local quadratic model of gamma * log L about a pose.
+struct LocalMode {
+  Pose pose = Pose::Identity();                     ///< T_camera_centre
+  Vector6d slope = Vector6d::Zero();                ///< of gamma * log L at `pose`
+  Matrix6d information = Matrix6d::Zero();          ///< positive semi-definite
+  double log_likelihood = 0.0;                      ///< gamma * log L at `pose` [nat]
+  double log_posterior = 0.0;                       ///< ... plus the log prior density about the predicted mean
+};
+
+struct ModeSearchStart {
+  Pose pose;
+  double width_m;  ///< surface noise of the first step; halved from step to step
+};
+
+/// Prior of the frame that all starts share.
+struct PredictedPose {
+  Pose mean = Pose::Identity();
+  Matrix6d covariance = Matrix6d::Zero();  ///< spread of the particles' predictions, process noise not included
+};
+
+class ModeSearch {
+ public:
+  /// @param object_radius_m makes rotations comparable to translations when directions are ranked.
+  ModeSearch(PoseLikelihood& likelihood, const ProcessStep& step, double likelihood_exponent, double object_radius_m);
+
+  /// The best mode first, then others that compete with it (at most `max_modes`). Empty without starts.
+  std::vector<LocalMode> run(const PredictedPose& predicted, const std::vector<ModeSearchStart>& starts, std::size_t max_modes);
+
+  int likelihoodEvaluations() const { return likelihood_evaluations_; }
+
+ private:
+  LocalMode climb(const PredictedPose& predicted, const ModeSearchStart& start);
+  Vector6d newtonStep(const PredictedPose& predicted, const Matrix6d& prior_information, const Linearisation& model,
+                      const Pose& pose) const;
+  void probeFreeDirections(LocalMode& mode);
+  void probeDirection(LocalMode& mode, const Vector6d& direction, double reach);
+  Matrix6d priorInformation(const PredictedPose& predicted) const;
+  double logPrior(const Pose& pose, const PredictedPose& predicted) const;
+  double temperedLogLikelihood(const Pose& pose);
+
+  PoseLikelihood& likelihood_;
+  const ProcessStep& step_;
+  double exponent_;
+  double object_radius_m_;
+  int likelihood_evaluations_ = 0;
+};
+
+}  // namespace depth_object_tracker

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The particle filter over poses: predict, propose, weight, estimate, resample.
+#pragma once
+
+#include "depth_object_tracker/filter/filter_config.h"
+#include "depth_object_tracker/filter/mode_search.h"
+#include "depth_object_tracker/filter/pose_likelihood.h"
+#include "depth_object_tracker/filter/pose_statistics.h"
+#include "depth_object_tracker/filter/random.h"
+#include "depth_object_tracker/geometry/symmetry.h"
+#include "depth_object_tracker/model/process_model.h"
+
+#include <vector>
+
+namespace depth_object_tracker {
+
+struct FilterTimes {
+  double proposal_s = 0.0;
+  double likelihood_s = 0.0;
+  double resample_s = 0.0;
+};
+
+/// Posterior after one frame, about the object's centre.
+struct FilterEstimate {
+  PoseStatistics pose;
+  Vector6d velocity = Vector6d::Zero();            ///< [m/s, rad/s]
+  Matrix6d velocity_covariance = Matrix6d::Zero();
+  double effective_sample_size = 0.0;
+  int pose_evaluations = 0;
+  FilterTimes time;
+};
+
+/// Target: product over frames of L^gamma times the process model. Knows nothing of images.
+class ParticleFilter {
+ public:
+  /// @param object_radius_m size of the object, makes rotations comparable to translations.
+  /// @param symmetries about the centre frame; equivalent poses are folded together.
+  ParticleFilter(const FilterConfig& config, double object_radius_m, Symmetries symmetries);
+
+  /// Puts all particles at one pose, at rest; the first update's ProcessStep brings the initial uncertainty.
+  void initialise(const Pose& T_camera_centre);
+
+  /// One frame. @param likelihood_exponent gamma in (0, 1].
+  /// @param search_starts further starts for the mode search (after a loss); width in m.
+  FilterEstimate update(PoseLikelihood& likelihood, const ProcessStep& step, double likelihood_exponent,
+                        const std::vector<ModeSearchStart>& search_starts = {});
+
+  /// Before resampling.
+  const std::vector<Pose>& poses() const { return poses_; }
+  const std::vector<double>& weights() const { return weights_; }
+
+  /// Velocities become zero (after a time jump or a gap).
+  void stopMotion();
+
+ private:
+  void resampleIfNeeded(PoseLikelihood& likelihood);
+  void predict(const ProcessStep& step);
+  std::vector<LocalMode> findModes(PoseLikelihood& likelihood, const ProcessStep& step, double exponent,
+                                   const std::vector<ModeSearchStart>& search_starts);
+  void drawFromProcess(const ProcessStep& step);
+  void drawInformed(const ProcessStep& step, const std::vector<LocalMode>& modes);
+  void foldSymmetries();
+  void updateVelocities(const ProcessStep& step);
+  void estimateVelocity(FilterEstimate& estimate) const;
+  Pose drawPrior(const ProcessStep& step, std::size_t particle) const;
+  Vector6d normalDraw(std::size_t particle) const;
+  double choiceDraw(std::size_t particle) const;
+
+  FilterConfig config_;
+  double object_radius_m_;
+  Symmetries symmetries_;
+  RandomSource random_;
+  std::uint64_t frame_ = 0;
+
+  std::vector<Pose> poses_;            // T_camera_centre
+  std::vector<Vector6d> velocities_;   // of the centre
+  std::vector<double> weights_;        // sum 1
+  std::vector<Pose> predicted_;
+  std::vector<double> log_proposal_ratio_;  // log p(r | r_prev) - log q(r)
+  std::vector<double> log_likelihoods_;
+  std::vector<double> log_weights_;
+  Matrix6d data_share_ = Matrix6d::Identity();
+  Pose last_mean_ = Pose::Identity();
+};
+
+}  // namespace depth_object_tracker

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tells tracking, occlusion and loss apart from how the estimate explains the image.
+#pragma once
+
+#include "depth_object_tracker/filter/depth_likelihood.h"
+#include "depth_object_tracker/tracker/tracker_config.h"
+#include "depth_object_tracker/tracker/tracker_result.h"
+
+#include <string>
+
+namespace depth_object_tracker {
+
+class StatusMonitor {
+ public:
+  explicit StatusMonitor(const StatusConfig& config) : config_(config) {}
+
+  /// A new initial pose, or a jump of time: INITIALIZING until the estimate fits.
+  void restart();
+  void reset() { state_ = TrackerState::kUninitialized; }
+
+  /// @param dt_s since the last image that was used.
+  void update(const PoseAssessment& assessment, double dt_s);
+
+  TrackerState state() const { return state_; }
+  const std::string& reason() const { return reason_; }
+  double visibleFraction() const { return visible_fraction_; }  ///< [0, 1]
+  double score() const { return score_; }                       ///< 1 = as the sensor model expects
+
+ private:
+  void classify(const PoseAssessment& assessment, double dt_s);
+
+  StatusConfig config_;
+  TrackerState state_ = TrackerState::kUninitialized;
+  std::string reason_;
+  double visible_fraction_ = 0.0;
+  double score_ = 0.0;
+  double misfit_s_ = 0.0;  ///< how long the estimate has not fitted
+};
+
+}  // namespace depth_object_tracker

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_object_tracker/filter/mode_search.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace depth_object_tracker {
+namespace {
+
+constexpr double kNarrowestWidthM = 0.002;   // below: the model's own noise
+constexpr int kFinalSteps = 4;               // with the model's own noise
+constexpr double kMaxStepM = 0.03;
+constexpr double kMaxStepRad = 0.35;
+constexpr double kConvergedStep = 2e-5;      // m, and rad times the object's radius
+constexpr double kFreeDirectionStddevM = 0.7e-3;
+constexpr double kMaxProbeM = 0.012;
+constexpr int kMaxFreeDirections = 3;
+constexpr double kSameModeM = 2e-3;          // modes nearer than this are one
+constexpr double kCompetingNat = 12.0;       // modes less probable by more than this are dropped
+
+void limitStep(Vector6d& step) {
+  const double scale = std::max({1.0, step.head<3>().norm() / kMaxStepM, step.tail<3>().norm() / kMaxStepRad});
+  step /= scale;
+}
+
+/// Size of a displacement as the object's surface sees it [m].
+double surfaceMotion(const Vector6d& displacement, double radius) {
+  return std::hypot(displacement.head<3>().norm(), displacement.tail<3>().norm() * radius);
+}
+
+}  // namespace
+
+ModeSearch::ModeSearch(PoseLikelihood& likelihood, const ProcessStep& step, double likelihood_exponent, double object_radius_m)
+    : likelihood_(likelihood), step_(step), exponent_(likelihood_exponent), object_radius_m_(object_radius_m) {}
+
+std::vector<LocalMode> ModeSearch::run(const PredictedPose& predicted, const std::vector<ModeSearchStart>& starts,
+                                       std::size_t max_modes) {
+  std::vector<LocalMode> found;
+  for (const ModeSearchStart& start : starts) found.push_back(climb(predicted, start));
+  std::stable_sort(found.begin(), found.end(),
+                   [](const LocalMode& a, const LocalMode& b) { return a.log_posterior > b.log_posterior; });
+  std::vector<LocalMode> modes;
+  for (LocalMode& mode : found) {
+    if (modes.size() == max_modes) break;
+    if (!modes.empty() && mode.log_posterior < modes.front().log_posterior - kCompetingNat) break;
+    const bool known = std::any_of(modes.begin(), modes.end(), [&](const LocalMode& other) {
+      return surfaceMotion(difference(mode.pose, other.pose), object_radius_m_) < kSameModeM;
+    });
+    if (known) continue;
+    probeFreeDirections(mode);
+    modes.push_back(mode);
+  }
+  return modes;
+}
+
+LocalMode ModeSearch::climb(const PredictedPose& predicted, const ModeSearchStart& start) {
+  const Matrix6d prior_information = priorInformation(predicted);
+  LocalMode mode;
+  mode.pose = start.pose;
+  int final_steps = 0;
+  for (double width = start.width_m; final_steps < kFinalSteps; width *= 0.5) {
+    const bool is_final = width < kNarrowestWidthM;
+    final_steps += is_final ? 1 : 0;
+    const Linearisation model = likelihood_.linearise(mode.pose, is_final ? 0.0 : width, 0);
+    Vector6d displacement = newtonStep(predicted, prior_information, model, mode.pose);
+    limitStep(displacement);
+    mode.pose = perturb(mode.pose, displacement);
+    if (is_final && surfaceMotion(displacement, object_radius_m_) < kConvergedStep) break;
+  }
+  const Linearisation model = likelihood_.linearise(mode.pose, 0.0, 0);
+  mode.slope = exponent_ * model.gradient;
+  mode.information = exponent_ * model.information;
+  mode.log_likelihood = temperedLogLikelihood(mode.pose);
+  mode.log_posterior = mode.log_likelihood + logPrior(mode.pose, predicted);
+  return mode;
+}
+
+Vector6d ModeSearch::newtonStep(const PredictedPose& predicted, const Matrix6d& prior_information, const Linearisation& model,
+                                const Pose& pose) const {
+  const Matrix6d information = exponent_ * model.information + prior_information;
+  const Vector6d slope = exponent_ * model.gradient + prior_information * difference(predicted.mean, pose);
+  return information.ldlt().solve(slope);
+}
+
+Matrix6d ModeSearch::priorInformation(const PredictedPose& predicted) const {
+  // The widest component: a sudden motion must be found too; the weights know how rare it is.
+  Matrix6d covariance = predicted.covariance;
+  covariance.diagonal() += step_.widestComponent().variances;
+  return covariance.inverse();
+}
+
+double ModeSearch::logPrior(const Pose& pose, const PredictedPose& predicted) const {
+  return step_.logDensity(difference(pose, predicted.mean));
+}
+
+double ModeSearch::temperedLogLikelihood(const Pose& pose) {
+  ++likelihood_evaluations_;
+  return exponent_ * likelihood_.logLikelihood(pose, 0);
+}
+
+void ModeSearch::probeFreeDirections(LocalMode& mode) {
+  // Depth inside of the outline says nothing about a face that slides in its own plane; the outline does, but only in steps
+  // of whole pixels. Finite differences over the posterior's own width see it.
+  Matrix6d information = mode.information;
+  information.diagonal() += step_.component(0).variances.cwiseInverse();
+  Vector6d scale = Vector6d::Ones();
+  scale.tail<3>().setConstant(1.0 / object_radius_m_);  // rotations in metres of surface motion
+  const Matrix6d scaled = scale.asDiagonal() * information * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> directions(scaled);
+  for (int k = 0; k < kMaxFreeDirections; ++k) {  // eigenvalues ascend
+    const double stddev = 1.0 / std::sqrt(std::max(directions.eigenvalues()[k], 1e-12));
+    if (stddev < kFreeDirectionStddevM) break;
+    probeDirection(mode, scale.asDiagonal() * directions.eigenvectors().col(k), std::min(2.0 * stddev, kMaxProbeM));
+  }
+}
+
+void ModeSearch::probeDirection(LocalMode& mode, const Vector6d& direction, double reach) {
+  // Least-squares parabola through five points at -h, -h/2, 0, h/2, h: y = y0 + a x + b x^2 with x = offset / h.
+  constexpr std::array<double, 4> kOffsets = {-1.0, -0.5, 0.5, 1.0};
+  std::array<double, 4> values;
+  for (std::size_t i = 0; i < kOffsets.size(); ++i) {
+    values[i] = temperedLogLikelihood(perturb(mode.pose, kOffsets[i] * reach * direction));
+    if (!std::isfinite(values[i])) return;
+  }
+  const double centre = mode.log_likelihood;
+  const double linear = (-values[0] - 0.5 * values[1] + 0.5 * values[2] + values[3]) / 2.5;
+  // Normal equations of [1, x^2]: mean of x^2 is 0.5, sum of squared deviations 0.875.
+  const double quadratic = (0.5 * (values[0] + values[3]) - 0.25 * (values[1] + values[2]) - 0.5 * centre) / 0.875;
+  const double measured = -2.0 * quadratic / (reach * reach);
+  const double known = direction.dot(mode.information * direction);
+  if (!(measured > known)) return;
+  // Slope and information along the direction alone become the measured ones.
+  const double squared = direction.squaredNorm();
+  const Vector6d along = direction / squared;
+  mode.information += (measured - known) * along * along.transpose();
+  mode.slope += (linear / reach - mode.slope.dot(direction)) * along;
+}
+
+}  // namespace depth_object_tracker

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_object_tracker/filter/particle_filter.h"
+
+#include "depth_object_tracker/filter/informed_proposal.h"
+#include "depth_object_tracker/filter/resampling.h"
+#include "depth_object_tracker/filter/stopwatch.h"
+
+#include <cmath>
+
+namespace depth_object_tracker {
+namespace {
+
+// Share of what the data say about a particle's displacement that goes into its velocity.
+constexpr double kVelocityGain = 0.7;
+constexpr double kNarrowWidthM = 0.003;
+constexpr double kBroadWidthM = 0.016;
+constexpr std::size_t kMaxModes = InformedProposal::kMaxModes;
+
+}  // namespace
+
+ParticleFilter::ParticleFilter(const FilterConfig& config, double object_radius_m, Symmetries symmetries)
+    : config_(config), object_radius_m_(object_radius_m), symmetries_(std::move(symmetries)), random_(config.seed) {
+  const auto count = static_cast<std::size_t>(config.num_particles);
+  poses_.assign(count, Pose::Identity());
+  velocities_.assign(count, Vector6d::Zero());
+  weights_.assign(count, 1.0 / static_cast<double>(count));
+  predicted_ = poses_;
+  log_proposal_ratio_.assign(count, 0.0);
+}
+
+void ParticleFilter::initialise(const Pose& T_camera_centre) {
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    poses_[i] = T_camera_centre;
+    velocities_[i].setZero();
+    weights_[i] = 1.0 / static_cast<double>(poses_.size());
+  }
+  last_mean_ = T_camera_centre;
+}
+
+void ParticleFilter::stopMotion() {
+  for (Vector6d& velocity : velocities_) velocity.setZero();
+}
+
+FilterEstimate ParticleFilter::update(PoseLikelihood& likelihood, const ProcessStep& step, double likelihood_exponent,
+                                      const std::vector<ModeSearchStart>& search_starts) {
+  FilterEstimate estimate;
+  Stopwatch stopwatch;
+  ++frame_;
+  resampleIfNeeded(likelihood);
+  estimate.time.resample_s = stopwatch.lap();
+
+  predict(step);
+  if (config_.proposal == Proposal::kInformed) {
+    drawInformed(step, findModes(likelihood, step, likelihood_exponent, search_starts));
+  } else {
+    drawFromProcess(step);
+  }
+  estimate.time.proposal_s = stopwatch.lap();
+
+  likelihood.update(poses_, log_likelihoods_);
+  estimate.pose_evaluations += static_cast<int>(poses_.size());
+  estimate.time.likelihood_s = stopwatch.lap();
+
+  log_weights_.resize(poses_.size());
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    log_weights_[i] = std::log(weights_[i]) + likelihood_exponent * log_likelihoods_[i] + log_proposal_ratio_[i];
+  }
+  normaliseLogWeights(log_weights_, weights_);
+  foldSymmetries();
+  estimate.pose = poseStatistics(poses_, weights_, last_mean_);
+  estimate.effective_sample_size = effectiveSampleSize(weights_);
+  updateVelocities(step);
+  estimateVelocity(estimate);
+  last_mean_ = estimate.pose.mean;
+  return estimate;
+}
+
+void ParticleFilter::resampleIfNeeded(PoseLikelihood& likelihood) {
+  const double count = static_cast<double>(poses_.size());
+  const bool every_frame = config_.resampling_threshold >= 1.0;
+  if (!every_frame && effectiveSampleSize(weights_) >= config_.resampling_threshold * count) return;
+  const std::vector<int> source = resampleSystematic(weights_, random_.uniform(RandomPurpose::kResampling, frame_, 0));
+  for (std::size_t slot = 0; slot < source.size(); ++slot) {
+    const auto from = static_cast<std::size_t>(source[slot]);
+    poses_[slot] = poses_[from];
+    velocities_[slot] = velocities_[from];
+  }
+  likelihood.resample(source);
+  weights_.assign(weights_.size(), 1.0 / count);
+}
+
+void ParticleFilter::predict(const ProcessStep& step) {
+  for (std::size_t i = 0; i < poses_.size(); ++i) predicted_[i] = step.predict(poses_[i], velocities_[i]);
+}
+
+std::vector<LocalMode> ParticleFilter::findModes(PoseLikelihood& likelihood, const ProcessStep& step, double exponent,
+                                                 const std::vector<ModeSearchStart>& search_starts) {
+  const PoseStatistics predicted = poseStatistics(predicted_, weights_, last_mean_);
+  std::vector<ModeSearchStart> starts = {{predicted.mean, kNarrowWidthM}, {predicted.mean, kBroadWidthM}};
+  if ((last_mean_.translation() - predicted.mean.translation()).norm() > 0.5 * kBroadWidthM) {
+    starts.push_back({last_mean_, kBroadWidthM});  // the motion may have stopped
+  }
+  starts.insert(starts.end(), search_starts.begin(), search_starts.end());
+
+  // The region of interest: all predictions and starts, and as far as a sudden motion reaches.
+  std::vector<Pose> region = predicted_;
+  for (const ModeSearchStart& start : starts) region.push_back(start.pose);
+  const double reach = 2.0 * std::sqrt(step.widestComponent().variances.head<3>().maxCoeff());
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-reach, reach}) {
+      region.push_back(predicted.mean);
+      region.back().translation()[axis] += side;
+    }
+  }
+  likelihood.prepare(region);
+
+  ModeSearch search(likelihood, step, exponent, object_radius_m_);
+  return search.run({predicted.mean, predicted.covariance}, starts, kMaxModes);
+}
+
+Vector6d ParticleFilter::normalDraw(std::size_t particle) const {
+  // Antithetic pairs: the mean of the draws is exact, each draw alone is still normal.
+  const Vector6d normal = random_.normal6(RandomPurpose::kProposal, frame_, static_cast<std::uint32_t>(particle / 2));
+  return particle % 2 == 0 ? normal : Vector6d(-normal);
+}
+
+double ParticleFilter::choiceDraw(std::size_t particle) const {
+  // Golden-ratio sequence from a random start: each choice alone is uniform, together they are evenly spread.
+  constexpr double kGoldenRatio = 0.6180339887498949;
+  const double start = random_.uniform(RandomPurpose::kComponent, frame_, 0);
+  const double value = start + kGoldenRatio * static_cast<double>(particle);
+  return value - std::floor(value);
+}
+
+Pose ParticleFilter::drawPrior(const ProcessStep& step, std::size_t particle) const {
+  const double choice = random_.uniform(RandomPurpose::kComponent, frame_, static_cast<std::uint32_t>(particle + 1));
+  const int k = step.numComponents() > 1 && choice > step.component(0).weight ? 1 : 0;
+  const Vector6d displacement = step.component(k).variances.cwiseSqrt().cwiseProduct(normalDraw(particle));
+  return perturb(predicted_[particle], displacement);
+}
+
+void ParticleFilter::drawFromProcess(const ProcessStep& step) {
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    poses_[i] = drawPrior(step, i);
+    log_proposal_ratio_[i] = 0.0;
+  }
+  data_share_.setIdentity();
+}
+
+void ParticleFilter::drawInformed(const ProcessStep& step, const std::vector<LocalMode>& modes) {
+  const InformedProposal proposal(step, modes);
+  if (proposal.empty()) return drawFromProcess(step);
+  const double prior_share = config_.prior_share;
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    const InformedProposal::ForParticle informed(proposal, predicted_[i]);
+    const double choice = choiceDraw(i);
+    poses_[i] = choice < prior_share ? drawPrior(step, i)
+                                     : informed.sample((choice - prior_share) / (1.0 - prior_share), normalDraw(i));
+    const Vector6d displacement = difference(poses_[i], predicted_[i]);
+    const double log_prior = step.logDensity(displacement) - logRotationVolume(displacement.tail<3>());
+    // log of p / (alpha p + (1 - alpha) q)
+    const double log_informed = informed.logDensity(poses_[i]);
+    log_proposal_ratio_[i] = -std::log(prior_share + (1.0 - prior_share) * std::exp(log_informed - log_prior));
+  }
+  data_share_ = proposal.dataShare();
+}
+
+void ParticleFilter::foldSymmetries() {
+  if (symmetries_.empty()) return;
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    const Pose folded = foldOntoReference(poses_[i], last_mean_, symmetries_);
+    predicted_[i] = foldOntoReference(predicted_[i], folded, symmetries_);
+    poses_[i] = folded;
+  }
+}
+
+void ParticleFilter::updateVelocities(const ProcessStep& step) {
+  if (step.dt() <= 0.0) return;
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    const Vector6d surprise = difference(poses_[i], predicted_[i]) / step.dt();
+    velocities_[i] = step.dampedVelocity(velocities_[i]) + kVelocityGain * (data_share_ * surprise);
+  }
+}
+
+void ParticleFilter::estimateVelocity(FilterEstimate& estimate) const {
+  for (std::size_t i = 0; i < poses_.size(); ++i) estimate.velocity += weights_[i] * velocities_[i];
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    const Vector6d deviation = velocities_[i] - estimate.velocity;
+    estimate.velocity_covariance += weights_[i] * deviation * deviation.transpose();
+  }
+}
+
+}  // namespace depth_object_tracker

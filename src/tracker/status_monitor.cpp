@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_object_tracker/tracker/status_monitor.h"
+
+#include <algorithm>
+
+namespace depth_object_tracker {
+namespace {
+
+// Fewer pixels than this say nothing about the fit.
+constexpr int kMinPixels = 8;
+
+}  // namespace
+
+void StatusMonitor::restart() {
+  state_ = TrackerState::kInitializing;
+  reason_ = "a new initial pose is being fitted to the image";
+  misfit_s_ = 0.0;
+  visible_fraction_ = 1.0;
+  score_ = 0.0;
+}
+
+void StatusMonitor::update(const PoseAssessment& assessment, double dt_s) {
+  visible_fraction_ =
+      assessment.measured_pixels > 0 ? std::clamp(assessment.visible_pixels / assessment.measured_pixels, 0.0, 1.0) : 0.0;
+  score_ = assessment.expected > 0.0 ? std::clamp(assessment.achieved / assessment.expected, 0.0, 1.5) : 0.0;
+  classify(assessment, dt_s);
+}
+
+void StatusMonitor::classify(const PoseAssessment& assessment, double dt_s) {
+  const bool outside = assessment.covered_pixels < kMinPixels;
+  const bool unmeasured = !outside && assessment.measured_pixels < kMinPixels;
+  const bool hidden = !outside && !unmeasured && visible_fraction_ < config_.occluded_below_visible_fraction;
+  // While hidden, few pixels are left to judge the fit by: only a pose that readings see through counts as misfit.
+  const bool misfit = outside || (!unmeasured && score_ < config_.lost_below_score && assessment.log_likelihood < 0.0);
+  misfit_s_ = misfit ? misfit_s_ + dt_s : 0.0;
+  if (misfit_s_ > config_.lost_after_s) {
+    state_ = TrackerState::kLost;
+    reason_ = outside ? "the object has left the image: bring it back into view or give a new initial pose"
+                      : "the depth image does not fit the object at any pose near the last one: searching; give a new initial pose "
+                        "if this lasts";
+  } else if (state_ == TrackerState::kLost || state_ == TrackerState::kInitializing) {
+    if (misfit || unmeasured || hidden) return;
+    state_ = TrackerState::kTracking;
+    reason_.clear();
+  } else if (unmeasured) {
+    state_ = TrackerState::kOccluded;
+    reason_ = "no depth readings where the object is expected: is the lens covered, or the object too near or too shiny?";
+  } else if (hidden) {
+    state_ = TrackerState::kOccluded;
+    reason_ = "the object is hidden: holding the last pose until it is seen again";
+  } else {
+    state_ = TrackerState::kTracking;
+    reason_.clear();
+  }
+}
+
+}  // namespace depth_object_tracker
