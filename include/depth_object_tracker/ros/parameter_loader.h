@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The ROS parameters of the tracker nodelet: `~tracker/...` for the algorithm, a handful of `~...` for the nodelet itself.
+#pragma once
+
+#include "depth_object_tracker/tracker/tracker_config.h"
+
+#include <XmlRpcValue.h>
+#include <ros/node_handle.h>
+
+#include <string>
+#include <vector>
+
+namespace depth_object_tracker {
+
+struct TrackerParameters {
+  TrackerConfig config;
+  std::vector<std::string> problems;  ///< one sentence each, naming key, value and valid range; empty = all good
+};
+
+/// @param value what the parameter server holds at `name`: a map from key to value; an invalid XmlRpcValue means that there is
+///   none, which gives the defaults.
+TrackerParameters loadTrackerParameters(XmlRpc::XmlRpcValue value, const std::string& name);
+
+/// Where the object's mesh comes from.
+struct ObjectSource {
+  std::string object_file;  ///< object YAML; wins over the rest
+  std::string name;
+  std::string mesh;         ///< `package://`, `file://` or a plain path
+  double mesh_scale = 1.0;  ///< metres per unit of the mesh file
+};
+
+struct NodeletOptions {
+  ObjectSource object;
+  std::string init_file;                  ///< JSON pose at start; empty = wait to be told
+  std::string image_transport = "raw";
+  bool publish_tf = true;
+  bool marker_use_mesh_resource = false;  ///< rviz loads the mesh file itself, instead of a triangle list
+  bool publish_debug = false;             ///< ~debug/last_image_address
+  double control_wait_s = 0.02;           ///< longest wait for the control twist that belongs to an image
+  std::vector<std::string> problems;      ///< as in TrackerParameters
+};
+
+NodeletOptions loadNodeletOptions(const ros::NodeHandle& private_node);
+
+}  // namespace depth_object_tracker

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Everything that the tracker publishes; what costs something only when somebody listens.
+#pragma once
+
+#include "depth_object_tracker/ros/marker_builder.h"
+#include "depth_object_tracker/ros/tracker_session.h"
+
+#include <depth_object_tracker/TrackerStatus.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+namespace depth_object_tracker {
+
+/// After construction used by the tracker's thread alone.
+class ResultPublisher {
+ public:
+  ResultPublisher(ros::NodeHandle private_node, const NodeletOptions& options);
+
+  void setObject(const BuiltTracker& object);
+
+  /// Pose, twist and tf, unless LOST or UNINITIALIZED; particles, pictures and markers for those who listen.
+  void publish(const FrameOutcome& outcome, const BuiltTracker& object);
+
+  void publishStatus(const TrackerStatus& status);
+
+  /// Where the likelihood reads the depth, for tests of zero copy; only with ~publish_debug.
+  void publishImageAddress(const std::uint8_t* data);
+
+ private:
+  void publishPose(const std_msgs::Header& header, const TrackerResult& result, const std::string& child_frame);
+  void publishParticles(const std_msgs::Header& header, const ObjectTracker& tracker);
+  void publishOcclusion(const std_msgs::Header& header, const ObjectTracker& tracker);
+  void publishOverlay(const FrameOutcome& outcome, const ObjectTracker& tracker);
+
+  bool publish_tf_;
+  MarkerBuilder marker_builder_;
+  tf2_ros::TransformBroadcaster tf_broadcaster_;
+  ros::Publisher pose_, twist_, particles_, particle_poses_, particle_points_, occlusion_, camera_info_, overlay_, marker_,
+      status_, image_address_;
+};
+
+}  // namespace depth_object_tracker

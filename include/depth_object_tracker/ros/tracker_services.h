@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The tracker's services, on threads of their own: one that waits holds up neither images nor other nodelets.
+#pragma once
+
+#include "depth_object_tracker/ros/tracker_worker.h"
+
+#include <depth_object_tracker/InitializeTracker.h>
+#include <depth_object_tracker/LoadObject.h>
+#include <depth_object_tracker/SetGrasp.h>
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/service_server.h>
+#include <ros/spinner.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+#include <atomic>
+#include <vector>
+
+namespace depth_object_tracker {
+
+class TrackerServices {
+ public:
+  /// Answers calls at once. @param worker, tf outlive this object.
+  TrackerServices(const ros::NodeHandle& private_node, TrackerWorker& worker, const tf2::BufferCore& tf);
+
+  /// Ends waiting calls. The worker must still be there.
+  ~TrackerServices();
+
+ private:
+  bool initialize(InitializeTracker::Request& request, InitializeTracker::Response& response);
+  bool loadObject(LoadObject::Request& request, LoadObject::Response& response);
+  bool setGrasp(SetGrasp::Request& request, SetGrasp::Response& response);
+  bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
+
+  std::string findObstacle(const InitialPose& pose) const;
+  InitialisationOutcome initialiseAndWait(const InitialPose& pose, double timeout_s);
+  ObjectSource sourceFor(const LoadObject::Request& request) const;
+
+  ros::NodeHandle node_;
+  TrackerWorker& worker_;
+  const tf2::BufferCore& tf_;
+  ros::CallbackQueue queue_;
+  ros::AsyncSpinner spinner_;
+  std::vector<ros::ServiceServer> servers_;
+  std::atomic<bool> stopping_{false};
+};
+
+}  // namespace depth_object_tracker

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the tracker's thread knows and does: object, pending initial pose, grasp; one image in, one outcome out.
+#pragma once
+
+#include "depth_object_tracker/robot/twist_buffer.h"
+#include "depth_object_tracker/ros/camera_conversions.h"
+#include "depth_object_tracker/ros/frame_inbox.h"
+#include "depth_object_tracker/ros/initial_pose_resolver.h"
+#include "depth_object_tracker/ros/object_source.h"
+#include "depth_object_tracker/ros/throttled_log.h"
+
+#include <depth_object_tracker/Grasp.h>
+#include <geometry_msgs/TwistStamped.h>
+#include <std_msgs/Header.h>
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace depth_object_tracker {
+
+/// What became of one image.
+struct FrameOutcome {
+  std_msgs::Header header;       ///< of the image
+  bool processed = false;        ///< the tracker saw it; otherwise `result` is what was known before
+  bool is_new_estimate = false;  ///< pose, twist and the rest are worth publishing
+  TrackerResult result;          ///< state and reason as they go into the status
+  DepthImageView depth;          ///< valid as long as the image; empty when not processed
+  PinholeCamera camera;
+};
+
+/// How an initialisation that somebody waits for ended.
+struct InitialisationOutcome {
+  bool success = false;
+  std::string message;
+  geometry_msgs::PoseWithCovarianceStamped pose;
+};
+using InitialisationCallback = std::function<void(const InitialisationOutcome&)>;
+
+/// Lives on the tracker's thread; knows no topic, so that tests need no ROS master. Not thread-safe. Nothing throws but
+/// std::bad_alloc.
+class TrackerSession {
+ public:
+  /// @param tf outlives the session. @param image_topic for messages, and to tell raw from rectified images.
+  TrackerSession(const std::string& name, const std::string& image_topic, const std::string& info_topic, tf2::BufferCore& tf);
+
+  /// Takes a new object (or the problem that there is none), forgetting the old one's pose.
+  void setTracker(BuiltTracker built);
+
+  /// Starts anew from this pose at the next image. @param callback is told when TRACKING, or that it was given up; may be empty.
+  void initialise(const InitialPose& pose, InitialisationCallback callback);
+
+  /// Says in log and status why a wished pose was refused; what is tracked goes on.
+  void refuseInitialPose(const std::string& problem);
+  void reset();
+  void setPaused(bool paused) { paused_ = paused; }
+  void setGrasp(bool grasped, const std::string& link);
+  void addTwist(const geometry_msgs::TwistStamped& twist);
+
+  /// True when the image's control twist is not here yet but may well come.
+  bool awaitsTwist(const ros::Time& stamp) const;
+
+  FrameOutcome process(const CameraFrame& frame);
+
+  /// What the status says when there is no image: the last result with the reason why nothing happens.
+  TrackerResult idleResult(double seconds_without_image) const;
+
+  /// Ends everybody's waiting, with this message.
+  void abandon(const std::string& message);
+
+  const BuiltTracker& object() const { return object_; }
+  bool paused() const { return paused_; }
+  bool grasped() const { return grasped_; }
+  const std::string& cameraFrame() const { return camera_frame_; }
+  const std_msgs::Header& lastHeader() const { return last_header_; }
+
+ private:
+  struct PendingPose {
+    InitialPose pose;
+    std::optional<std::chrono::steady_clock::time_point> deadline;  // set at the first image
+  };
+
+  std::string viewFrame(const CameraFrame& frame, FrameOutcome& outcome);
+  void warnAboutCalibration(const CameraFrame& frame);
+  std::string applyPendingPose();
+  std::optional<ControlInput> controlFor(double stamp_s);
+  void runTracker(FrameOutcome& outcome);
+  void reportInput(const TrackerResult& result, const std_msgs::Header& header);
+  void answerWaiting(const FrameOutcome& outcome);
+  TrackerResult refusedResult(const std::string& reason) const;
+
+  std::string image_topic_;
+  std::string info_topic_;
+  Intrinsics intrinsics_;
+  tf2::BufferCore& tf_;
+  ThrottledLog log_;
+
+  BuiltTracker object_;
+  std::string initial_pose_problem_;  // why the last wish for an initial pose was not granted
+  std::optional<PendingPose> pending_pose_;
+  InitialisationCallback waiting_;
+  bool paused_ = false;
+  bool distortion_reported_ = false;
+  bool grasped_ = false;
+  std::string grasp_link_;
+  TwistBuffer twists_;
+  TrackerResult last_result_;
+  std::optional<double> last_stamp_s_;  // of the last image that the tracker saw
+  std::string camera_frame_;
+  std_msgs::Header last_header_;
+};
+
+}  // namespace depth_object_tracker

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_object_tracker/ros/marker_builder.h"
+
+#include "depth_object_tracker/ros/message_conversions.h"
+
+#include <boost/make_shared.hpp>
+
+#include <Eigen/Geometry>
+
+namespace depth_object_tracker {
+namespace {
+
+std_msgs::ColorRGBA makeColor(float red, float green, float blue, float alpha) {
+  std_msgs::ColorRGBA color;
+  color.r = red;
+  color.g = green;
+  color.b = blue;
+  color.a = alpha;
+  return color;
+}
+
+void addTriangles(const TriangleMesh& mesh, visualization_msgs::Marker& marker) {
+  marker.points.reserve(3 * mesh.triangles.size());
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t index : triangle) {
+      geometry_msgs::Point point;
+      point.x = mesh.vertices[index].x();
+      point.y = mesh.vertices[index].y();
+      point.z = mesh.vertices[index].z();
+      marker.points.push_back(point);
+    }
+  }
+}
+
+}  // namespace
+
+void MarkerBuilder::setObject(const BuiltTracker& object) {
+  template_ = visualization_msgs::Marker();
+  template_.ns = object.name;
+  template_.action = visualization_msgs::Marker::ADD;
+  if (use_mesh_resource_) {
+    template_.type = visualization_msgs::Marker::MESH_RESOURCE;
+    template_.mesh_resource = "file://" + object.mesh_file;
+    template_.scale.x = template_.scale.y = template_.scale.z = object.mesh_scale;
+  } else {
+    template_.type = visualization_msgs::Marker::TRIANGLE_LIST;
+    template_.scale.x = template_.scale.y = template_.scale.z = 1.0;
+    addTriangles(object.tracker->object().mesh, template_);
+  }
+}
+
+visualization_msgs::MarkerArrayPtr MarkerBuilder::build(const std_msgs::Header& header, const TrackerResult& result) const {
+  auto message = boost::make_shared<visualization_msgs::MarkerArray>();
+  const bool is_shown = result.has_pose && result.state != TrackerState::kLost && result.state != TrackerState::kUninitialized;
+  if (is_shown) {
+    message->markers.push_back(template_);
+    message->markers[0].pose = toPoseMessage(result.T_camera_object);
+    message->markers[0].color = result.state == TrackerState::kTracking ? makeColor(0.2f, 0.85f, 0.35f, 0.9f)
+                                                                        : makeColor(0.95f, 0.75f, 0.15f, 0.6f);
+  } else {
+    message->markers.resize(1);
+    message->markers[0].ns = template_.ns;
+    message->markers[0].action = visualization_msgs::Marker::DELETE;
+    message->markers[0].pose.orientation.w = 1.0;
+  }
+  message->markers[0].header = header;
+  return message;
+}
+
+}  // namespace depth_object_tracker

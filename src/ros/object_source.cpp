@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_object_tracker/ros/object_source.h"
+
+#include <nlohmann/json.hpp>
+#include <ros/package.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace depth_object_tracker {
+namespace {
+
+constexpr double kMaxRotationError = 1e-2;  // files round to a few digits
+constexpr const char* kInitFormat = R"({"cam_R_m2c": [9 numbers], "cam_t_m2c": [3 numbers, mm]})";
+
+ObjectDescription describe(const ObjectSource& source) {
+  if (!source.object_file.empty()) {
+    return loadObjectDescription(resolveMeshUri(source.object_file, findPackage));
+  }
+  if (source.mesh.empty()) {
+    throw std::invalid_argument("no object: set ~object_file (an object's YAML) or ~mesh (a mesh file), or call ~load_object");
+  }
+  if (!std::isfinite(source.mesh_scale) || source.mesh_scale <= 0.0) {
+    throw std::invalid_argument("mesh_scale is " + std::to_string(source.mesh_scale) +
+                                "; it must be positive (metres per unit of the mesh)");
+  }
+  ObjectDescription description;
+  description.name = source.name;
+  description.mesh = source.mesh;
+  description.mesh_scale = source.mesh_scale;
+  return description;
+}
+
+/// The object's name is its tf frame, and tf frames are words.
+std::string frameName(const std::string& name, const std::string& mesh_file) {
+  std::string frame = name.empty() ? std::filesystem::path(mesh_file).stem().string() : name;
+  const auto is_odd = [](unsigned char letter) { return std::isalnum(letter) == 0 && letter != '_' && letter != '-' && letter != '.'; };
+  std::replace_if(frame.begin(), frame.end(), is_odd, '_');
+  return frame.empty() ? "object" : frame;
+}
+
+Pose poseFromNumbers(const std::vector<double>& rotation, const std::vector<double>& translation_mm) {
+  if (rotation.size() != 9 || translation_mm.size() != 3) {
+    throw std::invalid_argument("cam_R_m2c must have 9 numbers and cam_t_m2c 3, but they have " +
+                                std::to_string(rotation.size()) + " and " + std::to_string(translation_mm.size()));
+  }
+  const Eigen::Matrix3d matrix = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation.data());
+  const double error = (matrix * matrix.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(error < kMaxRotationError) || matrix.determinant() < 0.0) {
+    throw std::invalid_argument("cam_R_m2c is not a rotation matrix");
+  }
+  Pose pose = Pose::Identity();
+  pose.linear() = Eigen::Quaterniond(matrix).normalized().toRotationMatrix();
+  pose.translation() = Eigen::Map<const Eigen::Vector3d>(translation_mm.data()) * 0.001;
+  if (!pose.translation().allFinite()) throw std::invalid_argument("cam_t_m2c is not finite");
+  return pose;
+}
+
+}  // namespace
+
+std::string findPackage(const std::string& package) { return ros::package::getPath(package); }
+
+BuiltTracker buildTracker(const ObjectSource& source, const TrackerConfig& config) {
+  BuiltTracker built;
+  try {
+    const ObjectDescription description = describe(source);
+    ObjectModel model = loadObject(description, findPackage);
+    built.name = frameName(source.name.empty() ? description.name : source.name, description.mesh);
+    built.mesh_file = std::filesystem::absolute(resolveMeshUri(description.mesh, findPackage)).string();
+    built.mesh_scale = description.mesh_scale;
+    model.name = built.name;
+    built.tracker = std::make_shared<ObjectTracker>(std::move(model), config);
+  } catch (const std::exception& error) {
+    built.tracker.reset();
+    built.problem = error.what();
+  }
+  return built;
+}
+
+InitFilePose loadInitFile(const std::string& uri) {
+  InitFilePose result;
+  try {
+    const std::string path = resolveMeshUri(uri, findPackage);
+    std::ifstream file(path);
+    if (!file) throw std::invalid_argument("cannot open it");
+    const nlohmann::json json = nlohmann::json::parse(file);
+    result.T_camera_object = poseFromNumbers(json.at("cam_R_m2c").get<std::vector<double>>(),
+                                             json.at("cam_t_m2c").get<std::vector<double>>());
+  } catch (const std::exception& error) {
+    result.problem = "initial pose file '" + uri + "': " + error.what() + "; expected " + kInitFormat;
+  }
+  return result;
+}
+
+}  // namespace depth_object_tracker

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_object_tracker/ros/parameter_loader.h"
+
+#include "depth_object_tracker/tracker/tracker_parameters.h"
+
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+namespace depth_object_tracker {
+namespace {
+
+std::optional<ParameterValue> toParameterValue(XmlRpc::XmlRpcValue& value) {
+  switch (value.getType()) {
+    case XmlRpc::XmlRpcValue::TypeBoolean: return ParameterValue(static_cast<bool>(value));
+    case XmlRpc::XmlRpcValue::TypeInt: return ParameterValue(static_cast<int>(value));
+    case XmlRpc::XmlRpcValue::TypeDouble: return ParameterValue(static_cast<double>(value));
+    case XmlRpc::XmlRpcValue::TypeString: return ParameterValue(static_cast<std::string>(value));
+    default: return std::nullopt;
+  }
+}
+
+/// Reads one option; leaves it alone when it is not set; a wrong type is a problem.
+template <typename Value>
+void readOption(const ros::NodeHandle& node, const std::string& key, const char* expected, Value& option,
+                std::vector<std::string>& problems) {
+  Value value{};
+  if (node.getParam(key, value)) {
+    option = value;
+  } else if (node.hasParam(key)) {
+    problems.push_back("parameter '" + node.resolveName(key) + "' must be " + expected);
+  }
+}
+
+void checkRange(const ros::NodeHandle& node, const std::string& key, double value, double max,
+                std::vector<std::string>& problems) {
+  if (std::isfinite(value) && value >= 0.0 && value <= max) return;
+  std::ostringstream problem;
+  problem << "parameter '" << node.resolveName(key) << "' is " << value << "; valid range is [0, " << max << "]";
+  problems.push_back(problem.str());
+}
+
+}  // namespace
+
+TrackerParameters loadTrackerParameters(XmlRpc::XmlRpcValue value, const std::string& name) {
+  TrackerParameters parameters;
+  if (!value.valid()) return parameters;
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
+    parameters.problems.push_back("parameter '" + name + "' must be a map from parameter names to values");
+    return parameters;
+  }
+  for (auto& [key, entry] : value) {
+    const auto parameter = toParameterValue(entry);
+    if (!parameter) {
+      parameters.problems.push_back("parameter '" + name + "/" + key + "' must be a number, a word, or true or false");
+      continue;
+    }
+    try {
+      setTrackerParameter(parameters.config, key, *parameter);
+    } catch (const std::invalid_argument& error) {
+      parameters.problems.push_back("under '" + name + "': " + error.what());
+    }
+  }
+  return parameters;
+}
+
+NodeletOptions loadNodeletOptions(const ros::NodeHandle& private_node) {
+  NodeletOptions options;
+  const auto read = [&](const char* key, const char* expected, auto& option) {
+    readOption(private_node, key, expected, option, options.problems);
+  };
+  read("object_file", "the path of an object's YAML file", options.object.object_file);
+  read("object_name", "a word", options.object.name);
+  read("mesh", "the path of a mesh", options.object.mesh);
+  read("mesh_scale", "a number (metres per unit of the mesh)", options.object.mesh_scale);
+  read("init_file", "the path of a JSON file", options.init_file);
+  read("image_transport", "the name of an image transport", options.image_transport);
+  read("publish_tf", "true or false", options.publish_tf);
+  read("marker_use_mesh_resource", "true or false", options.marker_use_mesh_resource);
+  read("publish_debug", "true or false", options.publish_debug);
+  read("control_wait_s", "a number (seconds)", options.control_wait_s);
+  checkRange(private_node, "control_wait_s", options.control_wait_s, 1.0, options.problems);
+  return options;
+}
+
+}  // namespace depth_object_tracker

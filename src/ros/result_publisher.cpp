@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_object_tracker/ros/result_publisher.h"
+
+#include "depth_object_tracker/ros/message_conversions.h"
+#include "depth_object_tracker/ros/overlay.h"
+#include "depth_object_tracker/ros/particle_messages.h"
+
+#include <boost/make_shared.hpp>
+#include <geometry_msgs/TwistWithCovarianceStamped.h>
+#include <std_msgs/UInt64.h>
+
+namespace depth_object_tracker {
+namespace {
+
+bool isListenedTo(const ros::Publisher& publisher) { return publisher && publisher.getNumSubscribers() > 0; }
+
+bool isFinite(const TrackerResult& result) {
+  return isValidPose(result.T_camera_object) && result.covariance.allFinite();
+}
+
+bool hasPoseToTell(const TrackerResult& result) {
+  return result.has_pose && result.state != TrackerState::kLost && result.state != TrackerState::kUninitialized &&
+         isFinite(result);
+}
+
+}  // namespace
+
+ResultPublisher::ResultPublisher(ros::NodeHandle private_node, const NodeletOptions& options)
+    : publish_tf_(options.publish_tf), marker_builder_(options.marker_use_mesh_resource) {
+  pose_ = private_node.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", 5);
+  twist_ = private_node.advertise<geometry_msgs::TwistWithCovarianceStamped>("twist", 5);
+  particles_ = private_node.advertise<ParticleCloud>("particles", 2);
+  particle_poses_ = private_node.advertise<geometry_msgs::PoseArray>("particle_poses", 2);
+  particle_points_ = private_node.advertise<sensor_msgs::PointCloud2>("particle_points", 2);
+  occlusion_ = private_node.advertise<sensor_msgs::Image>("occlusion", 2);
+  camera_info_ = private_node.advertise<sensor_msgs::CameraInfo>("camera_info", 2);
+  overlay_ = private_node.advertise<sensor_msgs::Image>("overlay", 2);
+  marker_ = private_node.advertise<visualization_msgs::MarkerArray>("marker", 2);
+  status_ = private_node.advertise<TrackerStatus>("status", 5, true);
+  if (options.publish_debug) image_address_ = private_node.advertise<std_msgs::UInt64>("debug/last_image_address", 5, true);
+}
+
+void ResultPublisher::setObject(const BuiltTracker& object) {
+  if (object.tracker) marker_builder_.setObject(object);
+}
+
+void ResultPublisher::publish(const FrameOutcome& outcome, const BuiltTracker& object) {
+  if (outcome.is_new_estimate && hasPoseToTell(outcome.result)) publishPose(outcome.header, outcome.result, object.name);
+  if (!outcome.processed || !object.tracker) return;
+  publishParticles(outcome.header, *object.tracker);
+  publishOcclusion(outcome.header, *object.tracker);
+  publishOverlay(outcome, *object.tracker);
+  if (isListenedTo(marker_) && (!outcome.result.has_pose || isFinite(outcome.result))) {
+    marker_.publish(marker_builder_.build(outcome.header, outcome.result));
+  }
+}
+
+void ResultPublisher::publishPose(const std_msgs::Header& header, const TrackerResult& result, const std::string& child_frame) {
+  auto pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>();
+  pose->header = header;
+  pose->pose = toPoseMessage(result.T_camera_object, result.covariance);
+  pose_.publish(pose);
+  if (result.twist.allFinite() && result.twist_covariance.allFinite()) {
+    auto twist = boost::make_shared<geometry_msgs::TwistWithCovarianceStamped>();
+    twist->header = header;
+    twist->twist = toTwistMessage(result.twist, result.twist_covariance);
+    twist_.publish(twist);
+  }
+  if (!publish_tf_ || header.frame_id.empty()) return;
+  geometry_msgs::TransformStamped transform;
+  transform.header = header;
+  transform.child_frame_id = child_frame;
+  transform.transform = toTransformMessage(result.T_camera_object);
+  tf_broadcaster_.sendTransform(transform);
+}
+
+void ResultPublisher::publishParticles(const std_msgs::Header& header, const ObjectTracker& tracker) {
+  const bool cloud = isListenedTo(particles_), poses = isListenedTo(particle_poses_), points = isListenedTo(particle_points_);
+  if (!cloud && !poses && !points) return;
+  const ParticlePoses particles = tracker.particles();
+  if (particles.T_camera_object.empty()) return;
+  if (cloud) particles_.publish(toParticleCloud(particles, header));
+  if (poses) particle_poses_.publish(toPoseArray(particles, header));
+  if (points) particle_points_.publish(toPointCloud(particles, header));
+}
+
+void ResultPublisher::publishOcclusion(const std_msgs::Header& header, const ObjectTracker& tracker) {
+  const bool image = isListenedTo(occlusion_), info = isListenedTo(camera_info_);
+  if (!image && !info) return;
+  const OcclusionMap map = tracker.occlusionMap();
+  if (map.p_occluded.empty()) return;
+  if (image) occlusion_.publish(toOcclusionImage(map, header));
+  if (info) camera_info_.publish(toCameraInfo(map.grid.camera, header));
+}
+
+void ResultPublisher::publishOverlay(const FrameOutcome& outcome, const ObjectTracker& tracker) {
+  if (!isListenedTo(overlay_)) return;
+  const bool shows_object = outcome.is_new_estimate && hasPoseToTell(outcome.result);
+  const auto image = drawOverlay(outcome.depth, outcome.camera, shows_object ? tracker.renderEstimate() : std::vector<float>(),
+                                 tracker.occlusionMap());
+  image->header = outcome.header;
+  overlay_.publish(image);
+}
+
+void ResultPublisher::publishStatus(const TrackerStatus& status) {
+  status_.publish(boost::make_shared<const TrackerStatus>(status));
+}
+
+void ResultPublisher::publishImageAddress(const std::uint8_t* data) {
+  if (!image_address_ || data == nullptr) return;
+  std_msgs::UInt64 message;
+  message.data = reinterpret_cast<std::uintptr_t>(data);
+  image_address_.publish(message);
+}
+
+}  // namespace depth_object_tracker

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The tracker nodelet as a node of its own.
+#include "depth_object_tracker/ros/tracker_nodelet.h"
+
+#include <boost/make_shared.hpp>
+#include <nodelet/loader.h>
+#include <ros/init.h>
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "tracker");
+  ros::NodeHandle node;  // keeps the node alive until the end
+  nodelet::Loader loader([](const std::string&) { return boost::make_shared<depth_object_tracker::TrackerNodelet>(); });
+  const nodelet::V_string arguments(argv + 1, argv + argc);
+  if (!loader.load(ros::this_node::getName(), "depth_object_tracker/Tracker", ros::names::getRemappings(), arguments)) return 1;
+  ros::spin();
+  return 0;
+}

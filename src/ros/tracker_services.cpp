@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_object_tracker/ros/tracker_services.h"
+
+#include <cmath>
+#include <future>
+#include <memory>
+#include <thread>
+
+namespace depth_object_tracker {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+// One may wait for an initialisation (a newer one ends its waiting) while the other answers.
+constexpr std::uint32_t kNumThreads = 2;
+constexpr double kMaxTimeoutS = 3600.0;
+constexpr std::chrono::milliseconds kTransformWait{500};
+constexpr std::chrono::milliseconds kPollPeriod{10};
+constexpr std::chrono::seconds kWorkerWait{10};
+constexpr const char* kStopped = "the tracker is shutting down or hopelessly behind";
+
+Clock::time_point after(double seconds) {
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+template <typename Type>
+using Promise = std::shared_ptr<std::promise<Type>>;
+
+}  // namespace
+
+TrackerServices::TrackerServices(const ros::NodeHandle& private_node, TrackerWorker& worker, const tf2::BufferCore& tf)
+    : node_(private_node), worker_(worker), tf_(tf), spinner_(kNumThreads, &queue_) {
+  node_.setCallbackQueue(&queue_);
+  servers_.push_back(node_.advertiseService("initialize", &TrackerServices::initialize, this));
+  servers_.push_back(node_.advertiseService("load_object", &TrackerServices::loadObject, this));
+  servers_.push_back(node_.advertiseService("set_grasp", &TrackerServices::setGrasp, this));
+  servers_.push_back(node_.advertiseService("reset", &TrackerServices::reset, this));
+  servers_.push_back(node_.advertiseService("pause", &TrackerServices::pause, this));
+  spinner_.start();
+}
+
+TrackerServices::~TrackerServices() {
+  stopping_ = true;
+  for (ros::ServiceServer& server : servers_) server.shutdown();
+  spinner_.stop();
+}
+
+bool TrackerServices::initialize(InitializeTracker::Request& request, InitializeTracker::Response& response) {
+  if (request.mode != InitializeTracker::Request::FROM_POSE) {
+    response.message = "mode " + std::to_string(request.mode) + " is not available yet; use FROM_POSE (" +
+                       std::to_string(InitializeTracker::Request::FROM_POSE) + ")";
+    return true;
+  }
+  if (!std::isfinite(request.timeout_s) || request.timeout_s < 0.0 || request.timeout_s > kMaxTimeoutS) {
+    response.message = "timeout_s is " + std::to_string(request.timeout_s) + "; it must be in [0, 3600]";
+    return true;
+  }
+  const CheckedInitialPose checked = checkInitialPose(request.pose);
+  const std::string problem = checked.problem.empty() ? findObstacle(checked.pose) : checked.problem;
+  if (!problem.empty()) {
+    worker_.post([problem](TrackerSession& session) { session.refuseInitialPose("~initialize refused: " + problem); });
+    response.message = problem;
+    return true;
+  }
+  const InitialisationOutcome outcome = initialiseAndWait(checked.pose, request.timeout_s);
+  response.success = outcome.success;
+  response.message = outcome.message;
+  response.pose = outcome.pose;
+  return true;
+}
+
+/// Why the pose cannot be used: no object, or a frame that tf does not know. Gives tf a moment, by wall clock: simulated time
+/// may stand still.
+std::string TrackerServices::findObstacle(const InitialPose& pose) const {
+  struct Answer {
+    std::string problem;
+    std::string camera_frame;
+  };
+  const auto promise = std::make_shared<std::promise<Answer>>();
+  const bool posted = worker_.post(
+      [promise](TrackerSession& session) { promise->set_value({session.object().problem, session.cameraFrame()}); }, false);
+  auto future = promise->get_future();
+  if (!posted || future.wait_for(kWorkerWait) != std::future_status::ready) return kStopped;
+  const Answer answer = future.get();
+  if (!answer.problem.empty()) return "there is no object to track: " + answer.problem;
+  if (answer.camera_frame.empty()) return "";  // no image yet: told when one comes
+
+  const auto deadline = Clock::now() + kTransformWait;
+  std::string problem = resolveInitialPose(pose, answer.camera_frame, tf_).problem;
+  while (!problem.empty() && Clock::now() < deadline && !stopping_) {
+    std::this_thread::sleep_for(kPollPeriod);
+    problem = resolveInitialPose(pose, answer.camera_frame, tf_).problem;
+  }
+  return problem;
+}
+
+InitialisationOutcome TrackerServices::initialiseAndWait(const InitialPose& pose, double timeout_s) {
+  const auto promise = std::make_shared<std::promise<InitialisationOutcome>>();
+  const bool waits = timeout_s > 0.0;
+  InitialisationCallback callback;
+  if (waits) callback = [promise](const InitialisationOutcome& outcome) { promise->set_value(outcome); };
+  InitialisationOutcome outcome;
+  if (!worker_.post([pose, callback](TrackerSession& session) { session.initialise(pose, callback); })) {
+    outcome.message = kStopped;
+    return outcome;
+  }
+  if (!waits) {
+    outcome.success = true;
+    outcome.message = "initial pose accepted; tracking starts with the next image";
+    return outcome;
+  }
+  auto future = promise->get_future();
+  const auto deadline = after(timeout_s);
+  while (!stopping_ && Clock::now() < deadline) {
+    if (future.wait_for(kPollPeriod) == std::future_status::ready) return future.get();
+  }
+  outcome.message = "not tracking within " + std::to_string(timeout_s) + " s; see ~status for the reason. The pose stays accepted";
+  return outcome;
+}
+
+ObjectSource TrackerServices::sourceFor(const LoadObject::Request& request) const {
+  ObjectSource source;
+  if (request.object_file.empty() && request.mesh.empty()) {
+    source = loadNodeletOptions(node_).object;
+  } else {
+    source.object_file = request.object_file;
+    source.mesh = request.mesh;
+    source.mesh_scale = request.mesh_scale == 0.0 ? 1.0 : request.mesh_scale;
+  }
+  if (!request.name.empty()) source.name = request.name;
+  return source;
+}
+
+/// Reads and builds on the service's thread: the old object is tracked until the new one is there.
+bool TrackerServices::loadObject(LoadObject::Request& request, LoadObject::Response& response) {
+  XmlRpc::XmlRpcValue value;
+  node_.getParam("tracker", value);
+  const TrackerParameters parameters = loadTrackerParameters(value, node_.resolveName("tracker"));
+  if (!parameters.problems.empty()) {
+    response.message = parameters.problems.front();
+    return true;
+  }
+  const BuiltTracker built = buildTracker(sourceFor(request), parameters.config);
+  if (!built.tracker) {
+    response.message = built.problem;
+    return true;
+  }
+  response.diameter_m = built.tracker->diameterM();
+  response.num_triangles = static_cast<std::uint32_t>(built.tracker->object().mesh.triangles.size());
+  response.success = worker_.postTracker(built);
+  response.message = response.success ? "loaded '" + built.name + "'; it needs an initial pose" : kStopped;
+  return true;
+}
+
+bool TrackerServices::setGrasp(SetGrasp::Request& request, SetGrasp::Response& response) {
+  if (request.grasped && !request.link.empty()) {
+    response.message = "the motion of link '" + request.link +
+                       "' is not available yet; leave link empty and publish the object's twist on control_twist";
+    return true;
+  }
+  response.success = worker_.post([request](TrackerSession& session) { session.setGrasp(request.grasped, request.link); });
+  response.message = !response.success ? kStopped : request.grasped ? "held; its motion comes from control_twist" : "not held";
+  return true;
+}
+
+bool TrackerServices::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  response.success = worker_.post([](TrackerSession& session) { session.reset(); });
+  response.message = response.success ? "reset; waiting for an initial pose" : kStopped;
+  return true;
+}
+
+bool TrackerServices::pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+  const bool paused = request.data;
+  response.success = worker_.post([paused](TrackerSession& session) { session.setPaused(paused); });
+  response.message = !response.success ? kStopped : paused ? "paused" : "running";
+  return true;
+}
+
+}  // namespace depth_object_tracker

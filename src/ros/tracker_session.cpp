@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_object_tracker/ros/tracker_session.h"
+
+#include "depth_object_tracker/ros/image_conversions.h"
+#include "depth_object_tracker/ros/message_conversions.h"
+#include "depth_object_tracker/ros/pose_validation.h"
+
+#include <tf2/exceptions.h>
+
+#include <sstream>
+#include <utility>
+
+namespace depth_object_tracker {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::seconds kTransformTimeout{1};  // tf may come a little after the image
+constexpr double kImageOutageS = 1.0;
+constexpr double kLiveTwistAgeS = 0.2;                // a stream of twists that is older than this has ended
+
+std::string withoutSlash(const std::string& frame) {
+  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
+}
+
+}  // namespace
+
+TrackerSession::TrackerSession(const std::string& name, const std::string& image_topic, const std::string& info_topic,
+                               tf2::BufferCore& tf)
+    : image_topic_(image_topic),
+      info_topic_(info_topic),
+      intrinsics_(intrinsicsForTopic(image_topic)),
+      tf_(tf),
+      log_(name) {
+  object_.problem = "no object is loaded yet";
+}
+
+void TrackerSession::setTracker(BuiltTracker built) {
+  object_ = std::move(built);
+  abandon("another object was loaded");
+  pending_pose_.reset();
+  initial_pose_problem_.clear();
+  last_result_ = TrackerResult();
+  last_stamp_s_.reset();
+}
+
+void TrackerSession::initialise(const InitialPose& pose, InitialisationCallback callback) {
+  abandon("superseded by a newer initial pose");
+  waiting_ = std::move(callback);
+  pending_pose_ = PendingPose{pose, std::nullopt};
+  initial_pose_problem_.clear();
+}
+
+void TrackerSession::refuseInitialPose(const std::string& problem) {
+  log_.error(problem);
+  initial_pose_problem_ = problem;
+}
+
+void TrackerSession::reset() {
+  abandon("the tracker was reset");
+  pending_pose_.reset();
+  initial_pose_problem_.clear();
+  last_result_ = TrackerResult();
+  last_stamp_s_.reset();
+  if (object_.tracker) object_.tracker->reset();
+}
+
+void TrackerSession::setGrasp(bool grasped, const std::string& link) {
+  if (grasped && !grasped_) twists_.clear();  // what was commanded before does not move the object
+  grasped_ = grasped;
+  grasp_link_ = link;
+}
+
+void TrackerSession::addTwist(const geometry_msgs::TwistStamped& twist) {
+  TwistSample sample;
+  sample.stamp_s = twist.header.stamp.toSec();
+  sample.linear_m_s = {twist.twist.linear.x, twist.twist.linear.y, twist.twist.linear.z};
+  sample.angular_rad_s = {twist.twist.angular.x, twist.twist.angular.y, twist.twist.angular.z};
+  const std::string frame = withoutSlash(twist.header.frame_id);
+  if (!frame.empty() && !camera_frame_.empty() && frame != camera_frame_) {
+    try {
+      const auto transform = tf_.lookupTransform(camera_frame_, frame, twist.header.stamp);
+      const Eigen::Matrix3d R_camera_frame = fromTransformMessage(transform.transform).linear();
+      sample.linear_m_s = (R_camera_frame * sample.linear_m_s).eval();
+      sample.angular_rad_s = (R_camera_frame * sample.angular_rad_s).eval();
+    } catch (const tf2::TransformException& error) {
+      log_.warn("control_twist is ignored: tf cannot turn it from frame '" + frame + "' to the camera's frame '" +
+                                   camera_frame_ + "': " + error.what());
+      return;
+    }
+  }
+  if (!twists_.add(sample)) log_.warn("control_twist is ignored: it holds a number that is not finite");
+}
+
+bool TrackerSession::awaitsTwist(const ros::Time& stamp) const {
+  if (!grasped_ || !grasp_link_.empty() || paused_) return false;
+  const auto newest_s = twists_.newestStamp();
+  return newest_s && *newest_s < stamp.toSec() && *newest_s > stamp.toSec() - kLiveTwistAgeS;
+}
+
+FrameOutcome TrackerSession::process(const CameraFrame& frame) {
+  FrameOutcome outcome;
+  outcome.header = frame.image->header;
+  std::string problem = viewFrame(frame, outcome);
+  last_header_ = outcome.header;
+  if (problem.empty() && !object_.tracker) problem = object_.problem;
+  if (!problem.empty()) {
+    log_.warn(problem);
+    outcome.result = refusedResult(problem);
+    return outcome;
+  }
+  warnAboutCalibration(frame);
+  initial_pose_problem_ = applyPendingPose();
+  runTracker(outcome);
+  return outcome;
+}
+
+/// Fills depth and camera; returns why the image cannot be used.
+std::string TrackerSession::viewFrame(const CameraFrame& frame, FrameOutcome& outcome) {
+  const ImageViewResult image = viewDepthImage(*frame.image);
+  if (!image.problem.empty()) return "image on '" + image_topic_ + "' refused: " + image.problem;
+  if (!frame.info) {
+    return "image on '" + image_topic_ + "' refused: no camera_info on '" + info_topic_ +
+           "'; start its publisher or remap depth/camera_info";
+  }
+  const CameraResult camera = cameraFromInfo(*frame.info, intrinsics_, image.view.width, image.view.height);
+  if (!camera.problem.empty()) {
+    return "image on '" + image_topic_ + "' with camera_info on '" + info_topic_ + "' refused: " + camera.problem;
+  }
+  outcome.depth = image.view;
+  outcome.camera = camera.camera;
+  if (outcome.header.frame_id.empty()) outcome.header.frame_id = frame.info->header.frame_id;
+  outcome.header.frame_id = withoutSlash(outcome.header.frame_id);
+  camera_frame_ = outcome.header.frame_id;
+  return "";
+}
+
+void TrackerSession::warnAboutCalibration(const CameraFrame& frame) {
+  if (intrinsics_ == Intrinsics::kRaw && !distortion_reported_ && hasDistortion(*frame.info)) {
+    distortion_reported_ = true;
+    log_.warn("camera_info on '" + info_topic_ + "' has distortion, which is not corrected in the raw image on '" +
+                                image_topic_ + "': poses will be off near the borders; use the rectified topic (image_rect)");
+  }
+  if (camera_frame_.empty()) {
+    log_.warn("neither image nor camera_info names a frame_id: no tf is published");
+  }
+}
+
+/// Hands the pending pose to the tracker; returns why it cannot be done (yet).
+std::string TrackerSession::applyPendingPose() {
+  if (!pending_pose_) return initial_pose_problem_;
+  ResolvedPose resolved = resolveInitialPose(pending_pose_->pose, camera_frame_, tf_);
+  if (!resolved.problem.empty()) {
+    if (!pending_pose_->deadline) pending_pose_->deadline = Clock::now() + kTransformTimeout;
+    if (Clock::now() < *pending_pose_->deadline) return resolved.problem;
+    log_.error(resolved.problem);
+    pending_pose_.reset();
+    abandon(resolved.problem);
+    return resolved.problem;
+  }
+  const InitialisationConfig& defaults = object_.tracker->config().initialisation;
+  resolved.covariance = fillMissingVariances(resolved.covariance, defaults.position_stddev_m, defaults.rotation_stddev_rad);
+  object_.tracker->initialise(resolved.T_camera_object, resolved.covariance);
+  pending_pose_.reset();
+  return "";
+}
+
+std::optional<ControlInput> TrackerSession::controlFor(double stamp_s) {
+  if (!grasped_) return std::nullopt;
+  ControlInput control;
+  control.grasped = true;
+  control.has_twist = false;
+  if (grasp_link_.empty()) {
+    if (const auto mean = twists_.mean(last_stamp_s_.value_or(stamp_s), stamp_s)) {
+      control.has_twist = true;
+      control.linear_m_s = mean->linear_m_s;
+      control.angular_rad_s = mean->angular_rad_s;
+    } else {
+      log_.warn("the object is held, but control_twist says nothing about the time of the image: tracking goes "
+                                 "on with wider noise; check the topic and its stamps");
+    }
+  }
+  return control;
+}
+
+void TrackerSession::runTracker(FrameOutcome& outcome) {
+  const double stamp_s = outcome.header.stamp.toSec();
+  outcome.result = object_.tracker->update(outcome.depth, outcome.camera, stamp_s, controlFor(stamp_s));
+  outcome.processed = outcome.result.input != TrackerResult::Input::kDuplicateStamp;
+  last_stamp_s_ = stamp_s;
+  reportInput(outcome.result, outcome.header);
+  const bool has_state_to_tell = outcome.result.state != TrackerState::kUninitialized && outcome.result.has_pose;
+  outcome.is_new_estimate = outcome.processed && has_state_to_tell;
+  if (!initial_pose_problem_.empty() && outcome.result.state != TrackerState::kTracking) {
+    outcome.result.reason = initial_pose_problem_;
+  }
+  last_result_ = outcome.result;
+  answerWaiting(outcome);
+}
+
+void TrackerSession::reportInput(const TrackerResult& result, const std_msgs::Header& header) {
+  std::ostringstream text;
+  switch (result.input) {
+    case TrackerResult::Input::kUsed: return;
+    case TrackerResult::Input::kDuplicateStamp:
+      text << "image on '" << image_topic_ << "' ignored: its stamp " << header.stamp
+           << " repeats the one before; check the driver, or for two publishers on the topic";
+      break;
+    case TrackerResult::Input::kTimeJumpedBack:
+      text << "the stamp of the image on '" << image_topic_ << "' jumped back to " << header.stamp
+           << " (a bag that loops, or a clock that was set): starting anew from the last pose";
+      twists_.clear();
+      if (ros::Time::isSimTime()) tf_.clear();  // keeps static transforms
+      break;
+    case TrackerResult::Input::kNoValidDepth:
+      text << "the image on '" << image_topic_ << "' has no valid depth (all 0, NaN or out of range)"
+           << (result.reason.empty() ? "" : ": " + result.reason);
+      break;
+    case TrackerResult::Input::kUnusable:
+      text << "the image on '" << image_topic_ << "' cannot be used: " << result.reason;
+      break;
+  }
+  log_.warn(text.str());
+}
+
+void TrackerSession::answerWaiting(const FrameOutcome& outcome) {
+  if (!waiting_ || pending_pose_ || outcome.result.state != TrackerState::kTracking) return;
+  InitialisationOutcome answer;
+  answer.success = true;
+  answer.message = "tracking '" + object_.name + "'";
+  answer.pose.header = outcome.header;
+  answer.pose.pose = toPoseMessage(outcome.result.T_camera_object, outcome.result.covariance);
+  std::exchange(waiting_, nullptr)(answer);
+}
+
+void TrackerSession::abandon(const std::string& message) {
+  if (!waiting_) return;
+  InitialisationOutcome answer;
+  answer.message = message;
+  std::exchange(waiting_, nullptr)(answer);
+}
+
+/// In an image that cannot be used the object is not seen, which is not the same as tracked.
+TrackerResult TrackerSession::refusedResult(const std::string& reason) const {
+  TrackerResult result = last_result_;
+  if (result.state == TrackerState::kTracking) result.state = TrackerState::kOccluded;
+  result.input = TrackerResult::Input::kUnusable;
+  result.reason = reason;
+  return result;
+}
+
+TrackerResult TrackerSession::idleResult(double seconds_without_image) const {
+  if (!object_.tracker) return refusedResult(object_.problem);
+  if (!paused_ && seconds_without_image > kImageOutageS) {
+    std::ostringstream reason;
+    reason << "no image on '" << image_topic_ << "' for " << static_cast<int>(seconds_without_image)
+           << " s: is the camera (or the bag) running, and is the topic right?";
+    return refusedResult(reason.str());
+  }
+  TrackerResult result = last_result_;
+  if (result.state == TrackerState::kTracking) return result;
+  if (!initial_pose_problem_.empty()) {
+    result.reason = initial_pose_problem_;
+  } else if (paused_) {
+    result.reason = "paused; call ~pause with data: false to go on";
+  } else if (result.state == TrackerState::kUninitialized && !pending_pose_) {
+    result.reason = "no initial pose; call ~initialize, publish on ~initial_pose or set ~init_file";
+  }
+  return result;
+}
+
+}  // namespace depth_object_tracker

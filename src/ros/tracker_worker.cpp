@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_object_tracker/ros/tracker_worker.h"
+
+#include <exception>
+#include <utility>
+
+namespace depth_object_tracker {
+namespace {
+
+constexpr std::chrono::duration<double> kIdlePeriod{1.0};
+
+double secondsSince(std::chrono::steady_clock::time_point time) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - time).count();
+}
+
+}  // namespace
+
+TrackerWorker::TrackerWorker(const std::string& name, TrackerSession session, ResultPublisher publisher, double control_wait_s)
+    : log_(name), session_(std::move(session)), publisher_(std::move(publisher)), control_wait_(control_wait_s) {
+  publisher_.setObject(session_.object());
+}
+
+TrackerWorker::~TrackerWorker() { stop(); }
+
+void TrackerWorker::start() {
+  publishStatus(session_.idleResult(0.0));
+  thread_ = std::thread([this] { run(); });
+}
+
+void TrackerWorker::stop() {
+  inbox_.stop();
+  if (thread_.joinable()) thread_.join();
+  session_.abandon("the tracker is shutting down");
+}
+
+bool TrackerWorker::post(SessionCommand command, bool announce) {
+  return inbox_.postCommand([this, command = std::move(command), announce] {
+    command(session_);
+    announce_ = announce_ || announce;
+  });
+}
+
+bool TrackerWorker::postTracker(BuiltTracker built) {
+  return post([this, built = std::move(built)](TrackerSession& session) {
+    session.setTracker(built);
+    publisher_.setObject(built);
+  });
+}
+
+void TrackerWorker::run() {
+  while (auto delivery = inbox_.wait(kIdlePeriod)) {
+    try {
+      carryOut(delivery->commands);
+      if (delivery->frame) handleFrame(*delivery->frame);
+      reportIdle();
+    } catch (const std::exception& error) {  // a crash would take the camera driver in the same process with it
+      log_.error(std::string("internal error, please report it: ") + error.what());
+    }
+  }
+}
+
+void TrackerWorker::carryOut(std::deque<FrameInbox::Command>& commands) {
+  for (const FrameInbox::Command& command : commands) command();
+}
+
+void TrackerWorker::handleFrame(const CameraFrame& frame) {
+  last_image_at_ = Clock::now();
+  statistics_.input_rate.update(inbox_.counters().received, last_image_at_);
+  if (session_.paused()) return;
+  waitForTwist(frame);
+  const FrameOutcome outcome = session_.process(frame);
+  publisher_.publishImageAddress(outcome.depth.data);
+  publisher_.publish(outcome, session_.object());
+  if (outcome.processed) ++statistics_.processed;
+  if (outcome.is_new_estimate) ++statistics_.published;
+  statistics_.output_rate.update(statistics_.published, Clock::now());
+  statistics_.latency_s = secondsSince(frame.received_at);
+  publishStatus(outcome.result);
+}
+
+/// The twist up to the image's stamp often arrives just after the image.
+void TrackerWorker::waitForTwist(const CameraFrame& frame) {
+  const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(control_wait_);
+  while (session_.awaitsTwist(frame.image->header.stamp) && Clock::now() < deadline) {
+    auto delivery = inbox_.waitForCommands(deadline - Clock::now());
+    if (!delivery) return;
+    carryOut(delivery->commands);
+  }
+}
+
+/// A status after a command, and once a second while no image leads to one.
+void TrackerWorker::reportIdle() {
+  const bool is_idle = secondsSince(last_status_at_) > 0.95 * kIdlePeriod.count();
+  if (!announce_ && !is_idle) return;
+  const TrackerResult result = session_.idleResult(secondsSince(last_image_at_));
+  if (is_idle && !session_.paused() && !result.reason.empty()) log_.warn(result.reason);
+  publishStatus(result);
+}
+
+void TrackerWorker::publishStatus(const TrackerResult& result) {
+  StatusContext context;
+  context.header = session_.lastHeader();
+  context.object_name = session_.object().name;
+  context.paused = session_.paused();
+  context.grasped = session_.grasped();
+  publisher_.publishStatus(buildStatus(result, context, statistics_, inbox_.counters()));
+  last_status_at_ = Clock::now();
+  announce_ = false;
+}
+
+}  // namespace depth_object_tracker
