@@ -4,11 +4,11 @@
 
 #include "depth_object_tracker/tools/bop_models_info.h"
 #include "depth_object_tracker/tools/bop_scene.h"
-#include "depth_object_tracker/tools/depth_picture.h"
 #include "depth_object_tracker/tools/estimate_csv.h"
 #include "depth_object_tracker/tools/input_error.h"
 #include "depth_object_tracker/tools/occlusion_picture.h"
 #include "depth_object_tracker/tools/progress_bar.h"
+#include "depth_object_tracker/tools/scene_pictures.h"
 #include "depth_object_tracker/tools/sequence_summary.h"
 #include "depth_object_tracker/tools/trace_writer.h"
 #include "depth_object_tracker/tracker/object_tracker.h"
@@ -51,37 +51,6 @@ Pose chooseInitialPose(const TrackSequenceOptions& options, const BopScene& scen
   if (scene.first_truth) return *scene.first_truth;
   throw InputError("no initial pose: give --init FILE.json, or scene_gt.json with object " +
                    std::to_string(options.object_id) + " in " + scene.folder);
-}
-
-/// Width and height of the first picture that can be read: what all others are measured by.
-DepthPicture firstReadablePicture(const std::vector<SceneFrame>& frames) {
-  std::string first_problem;
-  for (const SceneFrame& frame : frames) {
-    try {
-      return readDepthPicture(frame.depth_path);
-    } catch (const InputError& error) {
-      if (first_problem.empty()) first_problem = error.what();
-    }
-  }
-  throw InputError("no frame has a depth picture that can be read; the first: " + first_problem);
-}
-
-/// The frame's picture; a missing or bad one becomes an all-missing picture.
-DepthPicture readFrame(const SceneFrame& frame, int width, int height, int& num_missing) {
-  if (!fs::exists(frame.depth_path)) {
-    ++num_missing;
-    return emptyDepthPicture(width, height);
-  }
-  try {
-    DepthPicture picture = readDepthPicture(frame.depth_path);
-    if (picture.width == width && picture.height == height) return picture;
-    throw InputError(frame.depth_path + " has " + std::to_string(picture.width) + " x " +
-                     std::to_string(picture.height) + " pixels, the frames before it " + std::to_string(width) + " x " +
-                     std::to_string(height));
-  } catch (const InputError& error) {
-    warn(std::string(error.what()) + "; taken for a frame without any reading");
-    return emptyDepthPicture(width, height);
-  }
 }
 
 /// Everything that one run writes.
@@ -135,17 +104,13 @@ TrackerResult updateTimed(ObjectTracker& tracker, const DepthPicture& picture, c
 
 void trackFrames(const std::vector<SceneFrame>& frames, ObjectTracker& tracker, const Pose& initial_pose,
                  RunOutputs& outputs, const PoseErrorMeter& meter, SequenceSummary& summary) {
-  const DepthPicture first = firstReadablePicture(frames);
+  ScenePictures pictures(frames, warn);
   ProgressBar progress(frames.size());
-  int num_missing = 0;
   Pose last_pose = initial_pose;
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const SceneFrame& frame = frames[k];
-    const DepthPicture picture = readFrame(frame, first.width, first.height, num_missing);
-    PinholeCamera camera = frame.camera;
-    camera.width = picture.width;
-    camera.height = picture.height;
-    TrackerResult result = updateTimed(tracker, picture, camera, frame);
+    const DepthPicture picture = pictures.read(frame);
+    TrackerResult result = updateTimed(tracker, picture, pictures.camera(frame), frame);
     if (!result.has_pose) result.T_camera_object = last_pose;  // a row per frame, whatever happens
     last_pose = result.T_camera_object;
     outputs.write(frame.id, result, tracker, picture.width, picture.height);
@@ -158,8 +123,9 @@ void trackFrames(const std::vector<SceneFrame>& frames, ObjectTracker& tracker, 
     summary.add(result, error, squared, frame.visible_fraction);
     progress.update(k + 1);
   }
-  if (num_missing > 0)
-    warn(std::to_string(num_missing) + " of " + std::to_string(frames.size()) + " frames have no depth picture");
+  if (pictures.numMissing() == 0) return;
+  warn(std::to_string(pictures.numMissing()) + " of " + std::to_string(frames.size()) +
+       " frames have no depth picture");
 }
 
 }  // namespace

@@ -113,6 +113,7 @@ void SequenceSummary::printErrors(std::ostream& out) const {
   const Losses lost = losses();
   out << "  losses (" << (symmetric_ ? "ADD-S" : "ADD") << " over 5 cm for more than 15 frames): " << lost.episodes
       << ", " << lost.frames << " frames\n";
+  printCalibration(out);
 }
 
 void SequenceSummary::printCalibration(std::ostream& out) const {
