@@ -1,1 +1,31 @@
-# simulator targets
+# depth_object_tracker_simulator: a simulated depth camera; knows no ROS. simulate_scene writes its images as scene folders.
+find_package(OpenCV REQUIRED COMPONENTS core imgcodecs)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+
+add_library(depth_object_tracker_simulator SHARED
+  src/simulator/arm.cpp
+  src/simulator/depth_sensor.cpp
+  src/simulator/grasp_chooser.cpp
+  src/simulator/hand_shapes.cpp
+  src/simulator/hand_slips.cpp
+  src/simulator/motion_clock.cpp
+  src/simulator/object_motion.cpp
+  src/simulator/passing_occluders.cpp
+  src/simulator/random_source.cpp
+  src/simulator/ray_cast.cpp
+  src/simulator/robot_signals.cpp
+  src/simulator/scene_simulator.cpp
+  src/simulator/scene_writer.cpp
+  src/simulator/shape_meshes.cpp
+  src/simulator/simulation_config.cpp
+  src/simulator/smooth_motion.cpp
+  src/simulator/static_world.cpp
+)
+target_include_directories(depth_object_tracker_simulator PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/cmake/no_ros)
+target_link_libraries(depth_object_tracker_simulator
+  PUBLIC depth_object_tracker_core
+  PRIVATE depth_object_tracker_warnings opencv_core opencv_imgcodecs nlohmann_json::nlohmann_json)
+
+add_executable(simulate_scene src/simulator/simulate_scene.cpp)
+target_link_libraries(simulate_scene PRIVATE depth_object_tracker_simulator depth_object_tracker_warnings CLI11::CLI11)

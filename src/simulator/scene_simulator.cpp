@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Puts the scene together: static world once, moving things every frame, then the sensor.
+#include "depth_object_tracker/simulator/scene_simulator.h"
+
+#include "depth_object_tracker/render/depth_renderer.h"
+#include "depth_object_tracker/simulator/arm.h"
+#include "depth_object_tracker/simulator/depth_sensor.h"
+#include "depth_object_tracker/simulator/grasp_chooser.h"
+#include "depth_object_tracker/simulator/object_motion.h"
+#include "depth_object_tracker/simulator/passing_occluders.h"
+#include "depth_object_tracker/simulator/pixel_index.h"
+#include "depth_object_tracker/simulator/robot_signals.h"
+
+#include <stdexcept>
+
+namespace depth_object_tracker {
+namespace {
+
+constexpr float kNothingM = 20.0f;  // where no surface is: out of the sensor's range
+constexpr std::uint64_t kInitialPoseStream = 110;
+constexpr std::uint64_t kPusherSeedOffset = 7777;
+const Eigen::Vector3d kHumanShoulderWorld(0.8, -0.95, 0.3);
+const Eigen::Vector3d kRobotShoulderWorld(0.8, 0.9, 0.75);
+
+// Hand and arm, drawn together.
+class HandAndArm {
+ public:
+  HandAndArm(const TriangleMesh& object, const GraspRequest& request)
+      : hand_(chooseGrasp(object, request)), arm_(request.arm), hand_renderer_(hand_.mesh),
+        link_renderers_{DepthRenderer(arm_.meshes()[0]), DepthRenderer(arm_.meshes()[1])} {}
+
+  template <typename Merge>
+  void draw(const Pose& T_camera_object, const PinholeCamera& camera, const Merge& merge) {
+    merge(hand_renderer_.render(T_camera_object, camera));
+    const auto links = arm_.place(T_camera_object * hand_.wrist, T_camera_object.linear() * hand_.wrist_out);
+    for (std::size_t k = 0; k < links.size(); ++k) merge(link_renderers_[k].render(links[k], camera));
+  }
+
+ private:
+  Hand hand_;
+  Arm arm_;
+  DepthRenderer hand_renderer_;
+  std::array<DepthRenderer, 2> link_renderers_;
+};
+
+TriangleMesh checked(const TriangleMesh& mesh) {
+  if (mesh.triangles.empty()) throw std::invalid_argument("the object's mesh has no triangle");
+  return mesh;
+}
+
+}  // namespace
+
+class SceneSimulator::Implementation {
+ public:
+  Implementation(const TriangleMesh& object, const SimulationConfig& config);
+
+  const SimulatedFrame& render(double stamp_s);
+  Pose truth(double stamp_s) { return motion_.object(stamp_s); }
+  Pose roughInitialPose(double error_m, double error_rad);
+  const SimulationConfig& config() const { return config_; }
+
+ private:
+  HandAndArm makeHolder(HandKind kind, std::uint64_t seed);
+  void drawObject();
+  void mergeNearest(const std::vector<CoveredPixel>& pixels);
+  void drawHands(double stamp_s);
+  void drawOccluder(double stamp_s);
+  void finishMask();
+
+  SimulationConfig config_;
+  TriangleMesh object_;
+  ObjectMotion motion_;
+  PassingOccluders occluders_;
+  DepthSensor sensor_;
+  RobotSignals robot_;
+  DepthRenderer object_renderer_;
+  std::optional<HandAndArm> holder_, pusher_;
+  std::optional<DepthRenderer> occluder_renderer_;
+  std::size_t occluder_number_ = 0;
+  std::vector<float> background_m_, depth_m_;
+  std::vector<CoveredPixel> object_pixels_;
+  std::uint64_t frame_number_ = 0;
+  SimulatedFrame frame_;
+};
+
+SceneSimulator::Implementation::Implementation(const TriangleMesh& object, const SimulationConfig& config)
+    : config_(config), object_(checked(object)), motion_(object, config), occluders_(config, object),
+      sensor_(config.sensor, config.camera, config.seed), robot_(config.seed), object_renderer_(object) {
+  const std::size_t num_pixels = static_cast<std::size_t>(config.camera.width) * config.camera.height;
+  background_m_.assign(num_pixels, kNothingM);
+  DepthRenderer world(makeStaticWorld(config));
+  for (const CoveredPixel& pixel : world.render(Pose::Identity(), config.camera)) {
+    background_m_[pixelIndex(pixel, config.camera)] = pixel.depth;
+  }
+  frame_.depth_mm.assign(num_pixels, 0);
+  frame_.occlusion.assign(num_pixels, 0);
+  const bool robot = config.scenario == Scenario::kRobot || config.scenario == Scenario::kSlip;
+  if (config.scenario == Scenario::kHuman) holder_ = makeHolder(HandKind::kHuman, config.seed);
+  if (robot) holder_ = makeHolder(HandKind::kGripper, config.seed);
+  if (config.scenario == Scenario::kSlip) pusher_ = makeHolder(HandKind::kHuman, config.seed + kPusherSeedOffset);
+}
+
+HandAndArm SceneSimulator::Implementation::makeHolder(HandKind kind, std::uint64_t seed) {
+  RandomSource random(seed, kInitialPoseStream + 1);
+  const Pose T_camera_world = makeCameraMount(config_).T_world_camera().inverse();
+  GraspRequest request;
+  request.kind = kind;
+  request.T_camera_object = motion_.held(0.0);
+  request.camera = config_.camera;
+  request.seed = seed;
+  request.wanted_coverage = kind == HandKind::kHuman ? random.uniform(0.1, 0.25) : random.uniform(0.05, 0.15);
+  request.arm.shoulder_camera =
+      T_camera_world * (kind == HandKind::kHuman ? kHumanShoulderWorld : kRobotShoulderWorld);
+  if (kind == HandKind::kGripper) {
+    request.arm.wrist_radius_m = 0.042;
+    request.arm.elbow_radius_m = 0.055;
+    request.arm.forearm_m = 0.22;
+  }
+  return HandAndArm(object_, request);
+}
+
+const SimulatedFrame& SceneSimulator::Implementation::render(double stamp_s) {
+  frame_.stamp_s = stamp_s;
+  frame_.T_camera_object = motion_.object(stamp_s);
+  frame_.T_camera_object_kinematics = frame_.T_camera_object;
+  if (config_.scenario == Scenario::kRobot || config_.scenario == Scenario::kSlip) {
+    const Pose T_camera_held = motion_.held(stamp_s);
+    frame_.control = robot_.control(stamp_s, T_camera_held, frame_.T_camera_object);
+    frame_.T_camera_object_kinematics = robot_.kinematics(T_camera_held);
+  }
+  depth_m_ = background_m_;
+  drawObject();
+  drawHands(stamp_s);
+  drawOccluder(stamp_s);
+  finishMask();
+  sensor_.measure(depth_m_, frame_number_++, frame_.depth_mm.data());
+  return frame_;
+}
+
+void SceneSimulator::Implementation::drawObject() {
+  object_pixels_ = object_renderer_.render(frame_.T_camera_object, config_.camera);
+  std::fill(frame_.occlusion.begin(), frame_.occlusion.end(), std::uint8_t{0});
+  mergeNearest(object_pixels_);
+}
+
+void SceneSimulator::Implementation::mergeNearest(const std::vector<CoveredPixel>& pixels) {
+  for (const CoveredPixel& pixel : pixels) {
+    float& depth = depth_m_[pixelIndex(pixel, config_.camera)];
+    depth = std::min(depth, pixel.depth);
+  }
+}
+
+void SceneSimulator::Implementation::drawHands(double stamp_s) {
+  const auto merge = [this](const std::vector<CoveredPixel>& pixels) { mergeNearest(pixels); };
+  if (holder_) holder_->draw(motion_.held(stamp_s), config_.camera, merge);
+  const double presence = pusher_ ? motion_.pusherPresence(stamp_s) : 0.0;
+  if (presence <= 0.0) return;
+  // The pushing hand comes from its shoulder's side and goes back there.
+  const Pose T_camera_world = makeCameraMount(config_).T_world_camera().inverse();
+  const Eigen::Vector3d to_shoulder =
+      T_camera_world * kHumanShoulderWorld - frame_.T_camera_object.translation();
+  Pose T_camera_pusher = frame_.T_camera_object;
+  T_camera_pusher.translation() += 0.7 * (1.0 - presence) * to_shoulder;
+  pusher_->draw(T_camera_pusher, config_.camera, merge);
+}
+
+void SceneSimulator::Implementation::drawOccluder(double stamp_s) {
+  const auto placed = occluders_.at(stamp_s, frame_.T_camera_object);
+  if (!placed) return;
+  if (placed->number != occluder_number_) {
+    occluder_renderer_.emplace(occluders_.mesh());
+    occluder_number_ = placed->number;
+  }
+  mergeNearest(occluder_renderer_->render(placed->T_camera_occluder, config_.camera));
+}
+
+void SceneSimulator::Implementation::finishMask() {
+  frame_.object_pixels = static_cast<int>(object_pixels_.size());
+  frame_.visible_pixels = 0;
+  for (const CoveredPixel& pixel : object_pixels_) {
+    const std::size_t index = pixelIndex(pixel, config_.camera);
+    const bool visible = depth_m_[index] >= pixel.depth;
+    frame_.visible_pixels += visible ? 1 : 0;
+    frame_.occlusion[index] = visible ? 255 : 128;
+  }
+}
+
+Pose SceneSimulator::Implementation::roughInitialPose(double error_m, double error_rad) {
+  RandomSource random(config_.seed, kInitialPoseStream);
+  Pose about_centre = Pose::Identity();
+  const Eigen::Vector3d centroid = surfaceCentroid(object_);
+  about_centre.linear() = expSo3(error_rad * random.unitVector());
+  about_centre.translation() = centroid - about_centre.linear() * centroid + error_m * random.unitVector();
+  return truth(0.0) * about_centre;
+}
+
+SceneSimulator::SceneSimulator(const TriangleMesh& object, const SimulationConfig& config)
+    : implementation_(std::make_unique<Implementation>(object, config)) {}
+SceneSimulator::~SceneSimulator() = default;
+const SimulatedFrame& SceneSimulator::render(double stamp_s) { return implementation_->render(stamp_s); }
+Pose SceneSimulator::truth(double stamp_s) { return implementation_->truth(stamp_s); }
+Pose SceneSimulator::roughInitialPose(double error_m, double error_rad) {
+  return implementation_->roughInitialPose(error_m, error_rad);
+}
+const SimulationConfig& SceneSimulator::config() const { return implementation_->config(); }
+
+}  // namespace depth_object_tracker
