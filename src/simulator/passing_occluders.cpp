@@ -36,10 +36,10 @@ void PassingOccluders::plan(double after_s) {
   const bool full = kind_ == Occluders::kFull;
   event_.number += 1;
   event_.start_s = after_s + (full ? random_.uniform(0.7, 1.6) : random_.uniform(0.5, 1.6));
-  event_.end_s = event_.start_s + (full ? 2.2 : random_.uniform(1.2, 2.0));
+  event_.end_s = event_.start_s + (full ? 1.9 : random_.uniform(1.2, 2.0));
   event_.is_board = full || random_.uniform() < 0.6;
   event_.sweeps = !full && random_.uniform() < 0.5;
-  event_.coverage = full ? 1.0 : random_.uniform(0.35, 0.7);
+  event_.coverage = full ? 1.0 : event_.sweeps ? random_.uniform(0.25, 0.5) : random_.uniform(0.35, 0.65);
   // Arms come from the sides, boards from anywhere but straight down.
   const double angle = random_.uniform(-0.4, 0.4) + (random_.uniform() < 0.5 ? 0.0 : M_PI);
   event_.direction_image = Eigen::Vector2d(std::cos(angle), std::sin(angle));

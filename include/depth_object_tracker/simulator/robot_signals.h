@@ -16,7 +16,7 @@ struct RobotErrorConfig {
   double twist_bias_m_s = 0.003;        ///< constant
   double twist_bias_rad_s = 0.0105;
   double twist_scale_error = 0.05;      ///< velocities are off by up to this share
-  double kinematics_error_m = 0.025;    ///< grows as the arm leaves its first pose
+  double kinematics_error_m = 0.035;    ///< grows as the arm leaves its first pose
   double kinematics_error_rad = 0.07;
 };
 
