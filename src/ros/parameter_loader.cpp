@@ -41,16 +41,16 @@ void checkRange(const ros::NodeHandle& node, const std::string& key, double valu
   problems.push_back(problem.str());
 }
 
-}  // namespace
-
-TrackerParameters loadTrackerParameters(XmlRpc::XmlRpcValue value, const std::string& name) {
-  TrackerParameters parameters;
-  if (!value.valid()) return parameters;
-  if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
+/// Adds the parameters of one map. Files have them below a key `tracker`, which may so stand below the name `tracker` again.
+void addParameters(XmlRpc::XmlRpcValue& map, const std::string& name, TrackerParameters& parameters) {
+  if (map.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
     parameters.problems.push_back("parameter '" + name + "' must be a map from parameter names to values");
-    return parameters;
+    return;
   }
-  for (auto& [key, entry] : value) {
+  const std::string below = "tracker";
+  if (map.hasMember(below)) addParameters(map[below], name + "/" + below, parameters);  // first: what stands nearer wins
+  for (auto& [key, entry] : map) {
+    if (key == below) continue;
     const auto parameter = toParameterValue(entry);
     if (!parameter) {
       parameters.problems.push_back("parameter '" + name + "/" + key + "' must be a number, a word, or true or false");
@@ -59,9 +59,16 @@ TrackerParameters loadTrackerParameters(XmlRpc::XmlRpcValue value, const std::st
     try {
       setTrackerParameter(parameters.config, key, *parameter);
     } catch (const std::invalid_argument& error) {
-      parameters.problems.push_back("under '" + name + "': " + error.what());
+      parameters.problems.push_back("parameter '" + name + "/" + key + "': " + error.what());
     }
   }
+}
+
+}  // namespace
+
+TrackerParameters loadTrackerParameters(XmlRpc::XmlRpcValue value, const std::string& name) {
+  TrackerParameters parameters;
+  if (value.valid()) addParameters(value, name, parameters);
   return parameters;
 }
 
@@ -76,6 +83,7 @@ NodeletOptions loadNodeletOptions(const ros::NodeHandle& private_node) {
   read("mesh_scale", "a number (metres per unit of the mesh)", options.object.mesh_scale);
   read("init_file", "the path of a JSON file", options.init_file);
   read("image_transport", "the name of an image transport", options.image_transport);
+  read("robot", "true or false", options.robot);
   read("publish_tf", "true or false", options.publish_tf);
   read("marker_use_mesh_resource", "true or false", options.marker_use_mesh_resource);
   read("publish_debug", "true or false", options.publish_debug);

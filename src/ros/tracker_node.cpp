@@ -2,14 +2,20 @@
 // The tracker nodelet as a node of its own.
 #include "depth_object_tracker/ros/tracker_nodelet.h"
 
+#include <boost/function.hpp>
 #include <boost/make_shared.hpp>
 #include <nodelet/loader.h>
-#include <ros/init.h>
+#include <nodelet/nodelet.h>
+#include <ros/ros.h>
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "tracker");
   ros::NodeHandle node;  // keeps the node alive until the end
-  nodelet::Loader loader([](const std::string&) { return boost::make_shared<depth_object_tracker::TrackerNodelet>(); });
+  // Made here, not looked up as a plugin: the node runs wherever its executable does.
+  const boost::function<boost::shared_ptr<nodelet::Nodelet>(const std::string&)> create = [](const std::string&) {
+    return boost::make_shared<depth_object_tracker::TrackerNodelet>();
+  };
+  nodelet::Loader loader(create);
   const nodelet::V_string arguments(argv + 1, argv + argc);
   if (!loader.load(ros::this_node::getName(), "depth_object_tracker/Tracker", ros::names::getRemappings(), arguments)) return 1;
   ros::spin();

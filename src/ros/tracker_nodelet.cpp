@@ -37,6 +37,9 @@ void TrackerNodelet::onInit() {
 void TrackerNodelet::start() {
   ros::NodeHandle& private_node = getPrivateNodeHandle();
   const NodeletOptions options = loadNodeletOptions(private_node);
+  if (options.robot) {
+    NODELET_WARN_STREAM(getName() << ": ~robot: joint states are not used yet; publish the held object's twist on control_twist");
+  }
   const std::string image_topic = getNodeHandle().resolveName("depth/image");
   const std::string info_topic = findInfoTopic(image_topic);
   tf_buffer_ = std::make_unique<tf2_ros::Buffer>();

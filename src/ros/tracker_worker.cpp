@@ -65,6 +65,7 @@ void TrackerWorker::carryOut(std::deque<FrameInbox::Command>& commands) {
 
 void TrackerWorker::handleFrame(const CameraFrame& frame) {
   last_image_at_ = Clock::now();
+  idle_reported_ = false;
   statistics_.input_rate.update(inbox_.counters().received, last_image_at_);
   if (session_.paused()) return;
   waitForTwist(frame);
@@ -93,7 +94,10 @@ void TrackerWorker::reportIdle() {
   const bool is_idle = secondsSince(last_status_at_) > 0.95 * kIdlePeriod.count();
   if (!announce_ && !is_idle) return;
   const TrackerResult result = session_.idleResult(secondsSince(last_image_at_));
-  if (is_idle && !session_.paused() && !result.reason.empty()) log_.warn(result.reason);
+  if (is_idle && !idle_reported_ && !session_.paused() && !result.reason.empty()) {
+    log_.warn(result.reason);
+    idle_reported_ = true;
+  }
   publishStatus(result);
 }
 

@@ -53,6 +53,7 @@ class TrackerWorker {
   Clock::time_point last_image_at_ = Clock::now();
   Clock::time_point last_status_at_ = Clock::now();
   bool announce_ = false;  // a command asked for a status
+  bool idle_reported_ = false;  // in the log, once for as long as no image comes
   std::thread thread_;
 };
 
