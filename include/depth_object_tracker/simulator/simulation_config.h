@@ -28,15 +28,15 @@ enum class Occluders {
 struct DepthSensorConfig {
   double baseline_m = 0.075;             ///< projector stands this far to the right of the camera
   double disparity_step_px = 0.125;      ///< 1/8 pixel sub-pixel matching
-  double noise_at_nearest_m = 0.0012;    ///< standard deviation at `noise_nearest_m`, before quantisation
+  double noise_at_nearest_m = 0.0013;    ///< standard deviation at `noise_nearest_m`, before quantisation
   double noise_growth_per_m = 0.0019;    ///< added: this * (z - noise_nearest_m)^2
   double noise_nearest_m = 0.4;
   double correlated_share = 0.4;         ///< share of the noise variance that neighbours have in common
   double correlation_px = 3.0;           ///< standard deviation of the correlation kernel
-  double edge_jitter_px = 0.65;          ///< standard deviation of where an edge is seen
+  double edge_jitter_px = 0.5;          ///< standard deviation of where an edge is seen
   double edge_step_m = 0.03;             ///< depth steps above are edges
-  double mixed_probability = 0.25;       ///< an edge pixel lies between the two surfaces
-  double edge_drop_probability = 0.25;   ///< an edge pixel has no reading
+  double mixed_probability = 0.2;       ///< an edge pixel lies between the two surfaces
+  double edge_drop_probability = 0.12;   ///< an edge pixel has no reading
   double grazing_begin_deg = 74.0;       ///< from here on, seen ever flatter, surfaces lose readings
   double grazing_end_deg = 82.0;         ///< from here on there is no reading
   double shadow_tolerance_px = 1.5;      ///< disparity by which a surface must stand before another to shadow it
