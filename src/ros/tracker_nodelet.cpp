@@ -15,6 +15,12 @@ std::string join(const std::vector<std::string>& sentences) {
   return text;
 }
 
+/// Absolute name of a topic beside the nodelet. A relative one would land in the manager's namespace where the nodelet lives in
+/// the root namespace: roscpp takes a node handle's namespace "/" for "not given".
+std::string siblingName(const std::string& nodelet_name, const std::string& topic) {
+  return ros::names::append(ros::names::parentNamespace(nodelet_name), topic);
+}
+
 }  // namespace
 
 TrackerNodelet::~TrackerNodelet() {
@@ -40,7 +46,7 @@ void TrackerNodelet::start() {
   if (options.robot) {
     NODELET_WARN_STREAM(getName() << ": ~robot: joint states are not used yet; publish the held object's twist on control_twist");
   }
-  const std::string image_topic = getNodeHandle().resolveName("depth/image");
+  const std::string image_topic = getNodeHandle().resolveName(siblingName(getName(), "depth/image"));
   const std::string info_topic = findInfoTopic(image_topic);
   tf_buffer_ = std::make_unique<tf2_ros::Buffer>();
   tf_listener_ = std::make_unique<tf2_ros::TransformListener>(*tf_buffer_);
@@ -92,17 +98,18 @@ void TrackerNodelet::applyInitFile(const std::string& init_file, TrackerSession&
 /// camera_info beside the image, unless the user remapped depth/camera_info.
 std::string TrackerNodelet::findInfoTopic(const std::string& image_topic) {
   ros::NodeHandle& node = getNodeHandle();
-  const std::string remapped = node.resolveName("depth/camera_info");
-  if (remapped != node.resolveName("depth/camera_info", false)) return remapped;
+  const std::string by_name = siblingName(getName(), "depth/camera_info");
+  const std::string remapped = node.resolveName(by_name);
+  if (remapped != by_name) return remapped;
   return node.resolveName(image_transport::getCameraInfoTopic(image_topic));
 }
 
 void TrackerNodelet::subscribeCommands() {
   ros::NodeHandle& node = getNodeHandle();
   initial_pose_subscriber_ = getPrivateNodeHandle().subscribe("initial_pose", 1, &TrackerNodelet::onInitialPose, this);
-  grasp_subscriber_ = node.subscribe("grasp", 10, &TrackerNodelet::onGrasp, this);
+  grasp_subscriber_ = node.subscribe(siblingName(getName(), "grasp"), 10, &TrackerNodelet::onGrasp, this);
   twist_subscriber_ = node.subscribe<geometry_msgs::TwistStamped>(
-      "control_twist", 100,
+      siblingName(getName(), "control_twist"), 100,
       [this](const geometry_msgs::TwistStampedConstPtr& twist) {
         worker_->post([twist](TrackerSession& session) { session.addTwist(*twist); }, false);
       },
