@@ -14,6 +14,7 @@ add_library(depth_object_tracker_core SHARED
   src/filter/resampling.cpp
   src/filter/worker_pool.cpp
   src/geometry/mesh_loader.cpp
+  src/geometry/mesh_orientation.cpp
   src/geometry/pinhole_camera.cpp
   src/geometry/pose.cpp
   src/geometry/symmetry.cpp
@@ -23,6 +24,7 @@ add_library(depth_object_tracker_core SHARED
   src/model/pixel_likelihood.cpp
   src/model/process_model.cpp
   src/render/depth_renderer.cpp
+  src/render/soft_outline.cpp
   src/tracker/frame_clock.cpp
   src/tracker/object_model.cpp
   src/tracker/object_tracker.cpp

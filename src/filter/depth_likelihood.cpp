@@ -67,7 +67,9 @@ DepthLikelihood::DepthLikelihood(const TriangleMesh& mesh, const Eigen::Vector3d
       memory_(occlusion_config, num_particles),
       weights_(static_cast<std::size_t>(num_particles), 1.0 / num_particles),
       pool_(num_threads),
-      renderers_(static_cast<std::size_t>(pool_.numThreads()), DepthRenderer(mesh)) {}
+      renderers_(static_cast<std::size_t>(pool_.numThreads()), DepthRenderer(mesh)),
+      outlines_(renderers_.size()),
+      edge_stddev_px_(pixel_config.edge_stddev_px) {}
 
 void DepthLikelihood::setImage(const DepthImageView& view, const SamplingGrid& grid, double dt_s) {
   const SamplingGrid& last = image_.grid();
@@ -107,10 +109,12 @@ void DepthLikelihood::prepare(const std::vector<Pose>& T_camera_centre) {
   memory_.mean(weights_, mean_belief_);
 }
 
-const std::vector<CoveredPixel>& DepthLikelihood::render(const Pose& T_camera_centre, int thread) {
+const std::vector<SoftPixel>& DepthLikelihood::render(const Pose& T_camera_centre, int thread) {
   Pose T_camera_object = T_camera_centre;
   T_camera_object.translation() -= T_camera_centre.linear() * centre_object_;
-  return renderers_[static_cast<std::size_t>(thread)].render(T_camera_object, image_.grid().camera);
+  const auto i = static_cast<std::size_t>(thread);
+  const PinholeCamera& camera = image_.grid().camera;
+  return outlines_[i].soften(renderers_[i].render(T_camera_object, camera), camera, edgeStddev());
 }
 
 float DepthLikelihood::meanBelief(int row, int col) const {
@@ -120,12 +124,13 @@ float DepthLikelihood::meanBelief(int row, int col) const {
 double DepthLikelihood::logLikelihood(const Pose& T_camera_centre, int thread) {
   if (!image_.isPrepared(boundingBox(T_camera_centre))) return -std::numeric_limits<double>::infinity();
   LogProduct likelihood;
-  for (const CoveredPixel& covered : render(T_camera_centre, thread)) {
+  for (const SoftPixel& covered : render(T_camera_centre, thread)) {
     const MeasuredPixel& pixel = image_.pixel(covered.row, covered.col);
     if (pixel.depth <= 0.0f) continue;
     const PixelRatios ratios = image_.ratios(pixel, covered.depth);
     const float p_occluded = meanBelief(covered.row, covered.col);
-    likelihood.multiply((1.0f - p_occluded) * ratios.visible + p_occluded * ratios.occluded);
+    const float hit = (1.0f - p_occluded) * ratios.visible + p_occluded * ratios.occluded;
+    likelihood.multiply(1.0f + covered.coverage * (hit - 1.0f));
   }
   return likelihood.log();
 }
@@ -137,9 +142,9 @@ Linearisation DepthLikelihood::linearise(const Pose& T_camera_centre, double ext
   const Eigen::Vector3d centre = T_camera_centre.translation();
   const PinholeCamera& camera = image_.grid().camera;
   const auto extra = static_cast<float>(extra_stddev_m);
-  for (const CoveredPixel& covered : render(T_camera_centre, thread)) {
+  for (const SoftPixel& covered : render(T_camera_centre, thread)) {
     MeasuredPixel pixel = image_.pixel(covered.row, covered.col);
-    if (pixel.depth <= 0.0f) continue;
+    if (pixel.depth <= 0.0f || covered.coverage < 0.5f) continue;
     if (extra > 0.0f) {
       const float widened = 1.0f / std::sqrt(1.0f / (pixel.inverse_stddev * pixel.inverse_stddev) + extra * extra);
       pixel.visible_peak *= widened / pixel.inverse_stddev;
@@ -147,9 +152,9 @@ Linearisation DepthLikelihood::linearise(const Pose& T_camera_centre, double ext
     }
     const PixelRatios ratios = image_.ratios(pixel, covered.depth);
     const float p_occluded = meanBelief(covered.row, covered.col);
-    const float surface = (1.0f - p_occluded) * ratios.surface;
-    const float total = (1.0f - p_occluded) * ratios.visible + p_occluded * ratios.occluded;
-    const float responsibility = surface / total;
+    const float hit = (1.0f - p_occluded) * ratios.visible + p_occluded * ratios.occluded;
+    const float responsibility =
+        covered.coverage * (1.0f - p_occluded) * ratios.surface / (1.0f + covered.coverage * (hit - 1.0f));
     if (responsibility < 1e-4f) continue;
     const Eigen::Vector3d normal = R * normals_object_[covered.triangle].cast<double>();
     const Eigen::Vector3d ray = camera.ray(covered.col, covered.row);
@@ -181,16 +186,18 @@ void DepthLikelihood::update(const std::vector<Pose>& T_camera_centre, std::vect
 double DepthLikelihood::updateParticle(int index, const Pose& T_camera_centre, int thread) {
   float* beliefs = memory_.particle(index);
   LogProduct likelihood;
-  for (const CoveredPixel& covered : render(T_camera_centre, thread)) {
+  for (const SoftPixel& covered : render(T_camera_centre, thread)) {
     const MeasuredPixel& pixel = image_.pixel(covered.row, covered.col);
     if (pixel.depth <= 0.0f) continue;
     const PixelRatios ratios = image_.ratios(pixel, covered.depth);
     const bool remembered = memory_.inRegion(covered.row, covered.col);
     float* belief = remembered ? beliefs + memory_.cell(covered.row, covered.col) : nullptr;
     const float p_occluded = memory_.probability(remembered ? *belief : memory_.unmeasured());
-    const float occluded = p_occluded * ratios.occluded;
-    const float total = (1.0f - p_occluded) * ratios.visible + occluded;
+    const float hit = (1.0f - p_occluded) * ratios.visible + p_occluded * ratios.occluded;
+    const float total = 1.0f + covered.coverage * (hit - 1.0f);
     likelihood.multiply(total);
+    // A beam that misses the object says nothing about occlusion: that share of the belief stays.
+    const float occluded = p_occluded * (1.0f + covered.coverage * (ratios.occluded - 1.0f));
     if (remembered) *belief = memory_.stored(occluded / total);
   }
   return likelihood.log();
@@ -206,23 +213,33 @@ PoseAssessment DepthLikelihood::assess(const Pose& T_camera_centre, int thread) 
   PoseAssessment result;
   image_.prepare(boundingBox(T_camera_centre));
   LogProduct likelihood;
-  for (const CoveredPixel& covered : render(T_camera_centre, thread)) {
-    ++result.covered_pixels;
+  for (const SoftPixel& covered : render(T_camera_centre, thread)) {
+    const bool inside = covered.coverage >= 0.5f;
+    result.covered_pixels += inside ? 1 : 0;
     const MeasuredPixel& pixel = image_.pixel(covered.row, covered.col);
     if (pixel.depth <= 0.0f) continue;
-    ++result.measured_pixels;
     const PixelRatios ratios = image_.ratios(pixel, covered.depth);
     const float p_occluded = meanBelief(covered.row, covered.col);
     const float visible = (1.0f - p_occluded) * ratios.visible, occluded = p_occluded * ratios.occluded;
+    const float total = 1.0f + covered.coverage * (visible + occluded - 1.0f);
+    likelihood.multiply(total);
+    if (!inside) continue;
     const double not_occluded = visible / (visible + occluded);
-    likelihood.multiply(visible + occluded);
+    ++result.measured_pixels;
     result.visible_pixels += (1.0f - p_occluded) * ratios.surface / (visible + occluded);
-    result.achieved += not_occluded * std::log(visible + occluded);
+    result.achieved += not_occluded * std::log(total);
     // A visible pixel's log density has the mean of a Gaussian's: half a nat below its peak.
-    result.expected += not_occluded * (std::log((1.0f - p_occluded) * pixel.visible_peak) - 0.5);
+    const double peak = (1.0f - p_occluded) * pixel.visible_peak;
+    result.expected += not_occluded * (std::log(1.0 + covered.coverage * (peak - 1.0)) - 0.5);
   }
   result.log_likelihood = likelihood.log();
   return result;
+}
+
+double DepthLikelihood::edgeStddev() const {
+  // On a coarse grid the outline is known to a fraction of a cell at best: cells are in or out as a whole.
+  constexpr double kCellStddev = 0.3;
+  return edge_stddev_px_ > 0.0 ? std::hypot(kCellStddev, edge_stddev_px_ / image_.grid().factor) : 0.0;
 }
 
 void DepthLikelihood::occlusionMap(const std::vector<Pose>& T_camera_centre, const std::vector<double>& weights,
@@ -235,7 +252,8 @@ void DepthLikelihood::occlusionMap(const std::vector<Pose>& T_camera_centre, con
     const auto weight = static_cast<float>(weights[i]);
     if (weight <= 0.0f) continue;
     const float* beliefs = memory_.particle(static_cast<int>(i));
-    for (const CoveredPixel& covered : render(T_camera_centre[i], 0)) {
+    for (const SoftPixel& covered : render(T_camera_centre[i], 0)) {
+      if (covered.coverage < 0.5f) continue;
       const bool remembered = memory_.inRegion(covered.row, covered.col);
       const float stored = remembered ? beliefs[memory_.cell(covered.row, covered.col)] : memory_.unmeasured();
       const std::size_t cell = static_cast<std::size_t>(covered.row) * static_cast<std::size_t>(camera.width) + covered.col;

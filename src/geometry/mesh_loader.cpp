@@ -143,6 +143,27 @@ class TriangleCollector {
   std::unordered_map<VertexKey, std::uint32_t, VertexKeyHash> index_of_;
 };
 
+/// assimp's PLY reader never returns from a header that does not end, and trusts the header's counts with its memory.
+void checkPlyHeader(const fs::path& path, std::uintmax_t num_bytes) {
+  constexpr int kMaxHeaderLines = 1000;
+  const std::string name = "mesh " + path.string() + ": ";
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  for (int i = 0; i < kMaxHeaderLines && std::getline(file, line); ++i) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (i == 0 && line != "ply") throw MeshError(name + "cannot be read as .ply: it does not begin with the line 'ply'.");
+    if (line == "end_header") return;
+    std::istringstream words(line);
+    std::string keyword, element;
+    double count = 0.0;
+    // An element takes at least one byte.
+    if (words >> keyword && keyword == "element" && (!(words >> element >> count) || !(count <= static_cast<double>(num_bytes)))) {
+      throw MeshError(name + "is damaged: its header says '" + line + "', the file has " + std::to_string(num_bytes) + " bytes.");
+    }
+  }
+  throw MeshError(name + "cannot be read as .ply: its header has no line 'end_header'.");
+}
+
 /// Opening a pipe would block and a directory reads as garbage: look before.
 void checkFile(const fs::path& path) {
   const std::string name = "mesh " + path.string() + ": ";
@@ -166,6 +187,7 @@ void checkFile(const fs::path& path) {
                     std::to_string(kMaxFileBytes >> 20) + " MiB that are accepted; simplify the mesh first.");
   }
   if (!std::ifstream(path)) throw MeshError(name + "the file cannot be opened: check its permissions.");
+  if (extension == "ply") checkPlyHeader(path, num_bytes);
 }
 
 TriangleMesh readTriangles(const fs::path& path, double scale) {

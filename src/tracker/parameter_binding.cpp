@@ -73,7 +73,10 @@ std::function<ParameterValue(const TrackerConfig&)> getter(FieldAccess<Field> fi
 std::string formatParameterValue(const ParameterValue& value) {
   if (const bool* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
   if (const int* integer = std::get_if<int>(&value)) return std::to_string(*integer);
-  if (const double* real = std::get_if<double>(&value)) return formatNumber(*real);
+  if (const double* real = std::get_if<double>(&value)) {
+    const std::string text = formatNumber(*real);
+    return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;  // `n`: nan and inf
+  }
   return std::get<std::string>(value);
 }
 

@@ -22,7 +22,7 @@ struct ParameterBinding {
 template <typename Field>
 using FieldAccess = Field& (*)(TrackerConfig&);
 
-/// Value as a person would type it; `10` and not `10.000000`.
+/// Value as a person would type it: integers bare, real numbers with a point.
 std::string formatParameterValue(const ParameterValue& value);
 
 /// "parameter `num_particles` is 0; it must be an integer in [1, 100000]".

@@ -27,6 +27,7 @@ Bindings measurementBindings() {
                "density of occluders: consistent = independent of the object; paper = renormalised to lie in front of it"),
     bindNumber(FIELD(pixel, object_noise_stddev_m), 1e-5, 0.1, "how far the mesh is from the real surface"),
     bindNumber(FIELD(pixel, depth_noise_per_m), 0.0, 0.1, "depth noise of the camera: standard deviation = this * depth^2"),
+    bindNumber(FIELD(pixel, edge_stddev_px), 0.0, 10.0, "how well the camera sees where an outline is, full-resolution pixels; 0 = to the pixel (the paper)"),
     bindNumber(FIELD(pixel, tail_weight), 1e-6, 0.5, "share of readings that may be anything between 0 and max_depth_m"),
     bindNumber(FIELD(pixel, max_depth_m), 0.1, 100.0, "readings beyond are treated as missing"),
     bindNumber(FIELD(pixel, occluder_half_life_m), 0.01, 100.0, "distance over which the density of occluders halves"),
@@ -47,6 +48,8 @@ Bindings processBindings() {
     bindNumber(FIELD(process, grasped_rotation_noise_rad_per_sqrt_s), 1e-5, 30.0, "random rotation of an object that a robot holds"),
     bindNumber(FIELD(process, grasped_position_bias_m_per_s), 0.0, 1.0, "constant error of the robot's linear velocity, standard deviation"),
     bindNumber(FIELD(process, grasped_rotation_bias_rad_per_s), 0.0, 10.0, "constant error of the robot's angular velocity, standard deviation"),
+    bindNumber(FIELD(process, diffusion_full_above_visible_fraction), 0.0, 1.0, "when less of the object is seen, random motion is held back; 0 = never (the paper)"),
+    bindNumber(FIELD(process, hidden_diffusion_scale), 0.001, 1.0, "share of the random motion that is left when nothing is seen"),
     bindNumber(FIELD(process, max_gap_s), 0.01, 60.0, "longer gaps between images count as this long, with zero velocity"),
   };
 }

@@ -7,7 +7,7 @@
 #include "depth_object_tracker/filter/worker_pool.h"
 #include "depth_object_tracker/geometry/triangle_mesh.h"
 #include "depth_object_tracker/model/measured_image.h"
-#include "depth_object_tracker/render/depth_renderer.h"
+#include "depth_object_tracker/render/soft_outline.h"
 
 #include <vector>
 
@@ -60,7 +60,8 @@ class DepthLikelihood : public PoseLikelihood {
   CellBox boundingBox(const Pose& T_camera_centre) const;
 
  private:
-  const std::vector<CoveredPixel>& render(const Pose& T_camera_centre, int thread);
+  const std::vector<SoftPixel>& render(const Pose& T_camera_centre, int thread);
+  double edgeStddev() const;
   float meanBelief(int row, int col) const;
   double updateParticle(int index, const Pose& T_camera_centre, int thread);
 
@@ -74,6 +75,8 @@ class DepthLikelihood : public PoseLikelihood {
   std::vector<double> weights_;
   WorkerPool pool_;
   std::vector<DepthRenderer> renderers_;  // one per thread
+  std::vector<SoftOutline> outlines_;     // one per thread
+  double edge_stddev_px_ = 0.0;           // full resolution
 };
 
 }  // namespace depth_object_tracker

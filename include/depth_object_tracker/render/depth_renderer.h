@@ -41,6 +41,9 @@ class DepthRenderer {
 
   void projectVertices();
   void drawTriangles();
+  template <bool kCullBackFaces>
+  void drawInFrontOfNearPlane();
+  bool missesItsOnlyPixel(std::uint32_t triangle) const;
   Corners cornersInCamera(std::uint32_t triangle) const;
   void drawClipped(const Corners& corners, std::uint32_t triangle);
   void drawVisible(const Corners& corners, const Eigen::Vector3d& plane, std::uint32_t triangle);
@@ -49,11 +52,13 @@ class DepthRenderer {
   std::vector<float> object_x_, object_y_, object_z_;  // vertices, object frame
   std::vector<float> u_, v_, z_;                       // the same, projected for this pose
   std::vector<std::array<std::uint32_t, 3>> triangles_;
+  bool faces_outward_ = false;  // closed surface, all triangles counter-clockwise from outside: back faces are never seen
   Pose T_camera_object_ = Pose::Identity();
   PinholeCamera camera_;
 
   std::vector<float> depth_buffer_;  // image size; infinity everywhere between calls
   std::vector<std::uint32_t> triangle_buffer_;
+  std::vector<std::uint32_t> candidates_;  // triangles that may hold a pixel centre
   Rectangle drawn_{0, -1, 0, -1};
   std::vector<CoveredPixel> covered_;
 };
