@@ -13,9 +13,12 @@ add_library(depth_object_tracker_core SHARED
   src/filter/random.cpp
   src/filter/resampling.cpp
   src/filter/worker_pool.cpp
+  src/geometry/mesh_file_check.cpp
   src/geometry/mesh_loader.cpp
   src/geometry/mesh_orientation.cpp
+  src/geometry/mesh_uri.cpp
   src/geometry/pinhole_camera.cpp
+  src/geometry/polygon_triangulation.cpp
   src/geometry/pose.cpp
   src/geometry/symmetry.cpp
   src/geometry/triangle_mesh.cpp

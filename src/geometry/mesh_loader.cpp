@@ -2,6 +2,9 @@
 // Mesh files to triangles in metres; assimp reads, and everything that a user may get wrong is answered here.
 #include "depth_object_tracker/geometry/mesh_loader.h"
 
+#include "mesh_file_check.h"
+#include "polygon_triangulation.h"
+
 #include <assimp/BaseImporter.h>
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/postprocess.h>
@@ -12,11 +15,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <new>
 #include <set>
@@ -29,7 +30,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{512} << 20;
 constexpr std::size_t kMaxTriangles = 20'000'000;
 constexpr std::array<const char*, 4> kExtensions = {"obj", "stl", "ply", "dae"};
 
@@ -38,14 +38,6 @@ std::string formatNumber(double value) {
   stream.precision(4);
   stream << value;
   return stream.str();
-}
-
-/// `.STL` -> `stl`.
-std::string lowerCaseExtension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  if (!extension.empty()) extension.erase(0, 1);
-  for (char& letter : extension) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-  return extension;
 }
 
 /// assimp may open the mesh file and nothing else: materials and textures are of no use here, and a hostile file could name a
@@ -79,8 +71,8 @@ void keepSupportedImporters(Assimp::Importer& importer) {
 /// Gathers the triangles of a scene; corners at exactly the same place become one vertex, also across materials.
 class TriangleCollector {
  public:
-  /// Walks the scene graph. @return false when it holds too many triangles.
-  bool collect(const aiScene& scene, double scale) {
+  /// Walks the scene graph. @throws std::runtime_error when that is more than can be handled.
+  void collect(const aiScene& scene, double scale) {
     using Node = std::pair<const aiNode*, Eigen::Affine3d>;
     std::vector<Node> stack = {{scene.mRootNode, Eigen::Affine3d(Eigen::Scaling(scale))}};
     while (!stack.empty()) {
@@ -88,11 +80,10 @@ class TriangleCollector {
       stack.pop_back();
       const Eigen::Affine3d T_object_node = T_object_parent * nodeTransform(*node);
       for (unsigned int i = 0; i < node->mNumMeshes; ++i) {
-        if (!addMesh(*scene.mMeshes[node->mMeshes[i]], T_object_node)) return false;
+        addMesh(*scene.mMeshes[node->mMeshes[i]], T_object_node);
       }
       for (unsigned int i = node->mNumChildren; i-- > 0;) stack.emplace_back(node->mChildren[i], T_object_node);
     }
-    return true;
   }
 
   TriangleMesh takeMesh() { return std::move(mesh_); }
@@ -114,20 +105,38 @@ class TriangleCollector {
     return transform;
   }
 
-  bool addMesh(const aiMesh& mesh, const Eigen::Affine3d& T_object_node) {
+  void addMesh(const aiMesh& mesh, const Eigen::Affine3d& T_object_node) {
     for (unsigned int i = 0; i < mesh.mNumFaces; ++i) {
       const aiFace& face = mesh.mFaces[i];
-      if (face.mNumIndices != 3) continue;  // points and lines have no surface
-      if (mesh_.triangles.size() >= kMaxTriangles) return false;
-      std::array<std::uint32_t, 3> triangle{};
-      for (std::size_t corner = 0; corner < 3; ++corner) {
-        const aiVector3D& position = mesh.mVertices[face.mIndices[corner]];
-        const Eigen::Vector3d p_object = T_object_node * Eigen::Vector3d(position.x, position.y, position.z);
-        triangle[corner] = vertexIndex(p_object.cast<float>());
+      if (face.mNumIndices < 3) continue;  // points and lines have no surface
+      if (face.mNumIndices > kMaxPolygonCorners) {
+        throw std::runtime_error("a face has " + std::to_string(face.mNumIndices) + " corners, more than " +
+                                 std::to_string(kMaxPolygonCorners) + "; triangulate it first");
       }
-      mesh_.triangles.push_back(triangle);
+      polygon_.clear();
+      for (unsigned int corner = 0; corner < face.mNumIndices; ++corner) {
+        const unsigned int index = face.mIndices[corner];
+        if (index >= mesh.mNumVertices) throw std::runtime_error("a face names a vertex that does not exist");
+        const aiVector3D& position = mesh.mVertices[index];
+        polygon_.push_back(T_object_node * Eigen::Vector3d(position.x, position.y, position.z));
+      }
+      addPolygon();
+      if (mesh_.triangles.size() > kMaxTriangles) {
+        throw std::runtime_error("it has more than " + std::to_string(kMaxTriangles) + " triangles; simplify the mesh first");
+      }
     }
-    return true;
+  }
+
+  void addPolygon() {
+    const auto is_finite = [](const Eigen::Vector3d& corner) { return corner.cast<float>().allFinite(); };
+    if (!std::all_of(polygon_.begin(), polygon_.end(), is_finite)) return;
+    std::vector<std::uint32_t> indices;
+    for (const Eigen::Vector3d& corner : polygon_) indices.push_back(vertexIndex(corner.cast<float>()));
+    if (indices.size() == 3) {
+      mesh_.triangles.push_back({indices[0], indices[1], indices[2]});
+      return;
+    }
+    for (const auto& [a, b, c] : triangulatePolygon(polygon_)) mesh_.triangles.push_back({indices[a], indices[b], indices[c]});
   }
 
   std::uint32_t vertexIndex(const Eigen::Vector3f& p_object) {
@@ -140,72 +149,23 @@ class TriangleCollector {
   }
 
   TriangleMesh mesh_;
+  std::vector<Eigen::Vector3d> polygon_;  // corners of the face at hand, object frame
   std::unordered_map<VertexKey, std::uint32_t, VertexKeyHash> index_of_;
 };
-
-/// assimp's PLY reader never returns from a header that does not end, and trusts the header's counts with its memory.
-void checkPlyHeader(const fs::path& path, std::uintmax_t num_bytes) {
-  constexpr int kMaxHeaderLines = 1000;
-  const std::string name = "mesh " + path.string() + ": ";
-  std::ifstream file(path, std::ios::binary);
-  std::string line;
-  for (int i = 0; i < kMaxHeaderLines && std::getline(file, line); ++i) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (i == 0 && line != "ply") throw MeshError(name + "cannot be read as .ply: it does not begin with the line 'ply'.");
-    if (line == "end_header") return;
-    std::istringstream words(line);
-    std::string keyword, element;
-    double count = 0.0;
-    // An element takes at least one byte.
-    if (words >> keyword && keyword == "element" && (!(words >> element >> count) || !(count <= static_cast<double>(num_bytes)))) {
-      throw MeshError(name + "is damaged: its header says '" + line + "', the file has " + std::to_string(num_bytes) + " bytes.");
-    }
-  }
-  throw MeshError(name + "cannot be read as .ply: its header has no line 'end_header'.");
-}
-
-/// Opening a pipe would block and a directory reads as garbage: look before.
-void checkFile(const fs::path& path) {
-  const std::string name = "mesh " + path.string() + ": ";
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found) throw MeshError(name + "the file does not exist.");
-  if (status.type() == fs::file_type::none) throw MeshError(name + "cannot be looked up: " + error.message() + ".");
-  if (status.type() == fs::file_type::directory) {
-    throw MeshError(name + "is a folder; give the path of the .obj, .stl, .ply or .dae file in it.");
-  }
-  if (status.type() != fs::file_type::regular) throw MeshError(name + "is not a regular file.");
-  const std::string extension = lowerCaseExtension(path);
-  if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end()) {
-    throw MeshError(name + "the format '." + extension + "' is not supported; convert it to .obj, .stl, .ply or .dae.");
-  }
-  const std::uintmax_t num_bytes = fs::file_size(path, error);
-  if (error) throw MeshError(name + "its size cannot be read: " + error.message() + ".");
-  if (num_bytes == 0) throw MeshError(name + "the file is empty.");
-  if (num_bytes > kMaxFileBytes) {
-    throw MeshError(name + "the file has " + std::to_string(num_bytes >> 20) + " MiB, more than the " +
-                    std::to_string(kMaxFileBytes >> 20) + " MiB that are accepted; simplify the mesh first.");
-  }
-  if (!std::ifstream(path)) throw MeshError(name + "the file cannot be opened: check its permissions.");
-  if (extension == "ply") checkPlyHeader(path, num_bytes);
-}
 
 TriangleMesh readTriangles(const fs::path& path, double scale) {
   Assimp::Importer importer;
   keepSupportedImporters(importer);
   importer.SetIOHandler(new SingleFileSystem(path.string()));  // owned by the importer
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  const aiScene* scene = importer.ReadFile(path.string(), aiProcess_ValidateDataStructure | aiProcess_Triangulate);
+  const aiScene* scene = importer.ReadFile(path.string(), aiProcess_ValidateDataStructure);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     const std::string reason = importer.GetErrorString();
     throw MeshError("mesh " + path.string() + ": cannot be read as ." + lowerCaseExtension(path) + ": " +
                     (reason.empty() ? "unknown reason" : reason) + ".");
   }
   TriangleCollector collector;
-  if (!collector.collect(*scene, scale)) {
-    throw MeshError("mesh " + path.string() + ": has more than " + std::to_string(kMaxTriangles) +
-                    " triangles; simplify the mesh first.");
-  }
+  collector.collect(*scene, scale);
   return collector.takeMesh();
 }
 
@@ -249,63 +209,14 @@ void checkDiameter(const TriangleMesh& mesh, const fs::path& path, double scale)
                   "." + proposeScale(diameter_m / scale));
 }
 
-bool startsWith(const std::string& text, const std::string& prefix) { return text.compare(0, prefix.size(), prefix) == 0; }
-
-/// `%20` -> space, as file URIs demand; anything that is no escape stays as it is.
-std::string decodePercent(const std::string& text) {
-  std::string decoded;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool is_escape = text[i] == '%' && i + 2 < text.size() && std::isxdigit(static_cast<unsigned char>(text[i + 1])) &&
-                           std::isxdigit(static_cast<unsigned char>(text[i + 2]));
-    decoded += is_escape ? static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16)) : text[i];
-    if (is_escape) i += 2;
-  }
-  return decoded;
-}
-
-std::string resolvePackageUri(const std::string& uri, const PackageResolver& resolve_package) {
-  const std::string rest = uri.substr(std::strlen("package://"));
-  const std::size_t slash = rest.find('/');
-  const std::string package = rest.substr(0, slash);
-  if (package.empty() || slash == std::string::npos || slash + 1 == rest.size()) {
-    throw MeshError("mesh " + uri + ": expected package://NAME/PATH.");
-  }
-  if (!resolve_package) {
-    throw MeshError("mesh " + uri + ": package:// names cannot be looked up here; give the file's path.");
-  }
-  const std::string folder = resolve_package(package);
-  if (folder.empty()) {
-    throw MeshError("mesh " + uri + ": package '" + package + "' was not found; is its workspace sourced (ROS_PACKAGE_PATH)?");
-  }
-  return folder + rest.substr(slash);
-}
-
 }  // namespace
-
-std::string resolveMeshUri(const std::string& uri, const PackageResolver& resolve_package) {
-  if (uri.empty()) throw MeshError("mesh: the path is empty.");
-  if (uri.find('\0') != std::string::npos) throw MeshError("mesh: the path contains a zero byte.");
-  if (startsWith(uri, "package://")) return resolvePackageUri(uri, resolve_package);
-  if (startsWith(uri, "file://")) {
-    std::string path = decodePercent(uri.substr(std::strlen("file://")));
-    if (startsWith(path, "localhost/")) path.erase(0, std::strlen("localhost"));
-    if (path.empty()) throw MeshError("mesh " + uri + ": expected file://PATH.");
-    return path;
-  }
-  const std::size_t scheme_end = uri.find("://");
-  if (scheme_end != std::string::npos) {
-    throw MeshError("mesh " + uri + ": '" + uri.substr(0, scheme_end) +
-                    "://' is not supported; use package://, file:// or a path.");
-  }
-  return uri;
-}
 
 TriangleMesh loadMesh(const std::string& uri, double scale, const PackageResolver& resolve_package) {
   const fs::path path = resolveMeshUri(uri, resolve_package);
   if (!std::isfinite(scale) || scale <= 0.0) {
     throw MeshError("mesh " + path.string() + ": mesh_scale is " + formatNumber(scale) + "; it must be finite and > 0.");
   }
-  checkFile(path);
+  checkMeshFile(path);
   TriangleMesh mesh = readTrianglesOrExplain(path, scale);
   const std::size_t num_read = mesh.triangles.size();
   if (num_read == 0) throw MeshError("mesh " + path.string() + ": the file has no faces.");
