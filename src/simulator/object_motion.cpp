@@ -63,6 +63,7 @@ SmoothMotionConfig ObjectMotion::motionConfig() const {
   motion.peak_speed_m_s = peakSpeed(config_.scenario, config_.speed);
   motion.peak_speed_rad_s = peakAngularSpeed(config_.scenario, config_.speed);
   motion.duration_s = config_.duration_s;
+  motion.first_rest_s = config_.first_rest_s;
   motion.seed = config_.seed;
   return motion;
 }

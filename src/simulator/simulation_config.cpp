@@ -20,10 +20,13 @@ Enum fromName(const std::array<std::pair<const char*, Enum>, N>& names, const st
   throw std::invalid_argument(std::string(what) + " is '" + name + "', must be one of: " + allowed);
 }
 
-constexpr std::array<std::pair<const char*, Scenario>, 4> kScenarios{{{"human", Scenario::kHuman},
+// The first four in the enumeration's order; the last two are what the demo calls them.
+constexpr std::array<std::pair<const char*, Scenario>, 6> kScenarios{{{"human", Scenario::kHuman},
                                                                       {"robot", Scenario::kRobot},
                                                                       {"slip", Scenario::kSlip},
-                                                                      {"static", Scenario::kStatic}}};
+                                                                      {"static", Scenario::kStatic},
+                                                                      {"robot_secure", Scenario::kRobot},
+                                                                      {"robot_slip", Scenario::kSlip}}};
 constexpr std::array<std::pair<const char*, Speed>, 3> kSpeeds{
     {{"slow", Speed::kSlow}, {"medium", Speed::kMedium}, {"fast", Speed::kFast}}};
 constexpr std::array<std::pair<const char*, Occluders>, 3> kOccluders{

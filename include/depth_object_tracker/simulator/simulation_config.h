@@ -52,6 +52,7 @@ struct SimulationConfig {
   Occluders occluders = Occluders::kNone;
   std::uint64_t seed = 1;
   double duration_s = 5.0;     ///< peak speeds are reached within; motion goes on, never repeating, after it
+  double first_rest_s = 0.3;   ///< before the object starts to move
   double distance_m = 0.74;    ///< camera to the middle of the object's motion
   double amplitude_m = 0.14;   ///< largest displacement from there, reduced where the object would leave the view
   double amplitude_rad = 0.87; ///< largest rotation about each axis

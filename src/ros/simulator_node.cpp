@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The simulator nodelet as a node of its own.
+#include "depth_object_tracker/ros/simulator_nodelet.h"
+
+#include <boost/function.hpp>
+#include <boost/make_shared.hpp>
+#include <nodelet/loader.h>
+#include <ros/ros.h>
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "simulator");
+  ros::NodeHandle node;  // keeps the node alive until the end
+  const boost::function<boost::shared_ptr<nodelet::Nodelet>(const std::string&)> create = [](const std::string&) {
+    return boost::make_shared<depth_object_tracker::SimulatorNodelet>();
+  };
+  nodelet::Loader loader(create);
+  const nodelet::V_string arguments(argv + 1, argv + argc);
+  if (!loader.load(ros::this_node::getName(), "depth_object_tracker/Simulator", ros::names::getRemappings(), arguments)) return 1;
+  ros::spin();
+  return 0;
+}
