@@ -8,6 +8,7 @@
 #include <array>
 #include <cctype>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <system_error>
 
@@ -19,25 +20,46 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{512} << 20;
 constexpr std::array<const char*, 4> kExtensions = {"obj", "stl", "ply", "dae"};
 
-/// assimp's PLY reader never returns from a header that does not end, and trusts the header's counts with its memory.
+std::string formatCount(double count) {
+  std::ostringstream stream;
+  stream.precision(15);
+  stream << count;
+  return stream.str();
+}
+
+/// What is wrong with one line of a PLY header, "" when nothing is. Adds an element's count to `num_elements`.
+std::string findPlyProblem(const std::string& line, double& num_elements) {
+  static const std::set<std::string> kKeywords = {"ply", "format", "comment", "obj_info", "element", "property"};
+  std::istringstream words(line);
+  std::string keyword, name;
+  if (!(words >> keyword) || kKeywords.count(keyword) == 0) return "its header has the line '" + line + "'";
+  double count = 0.0;
+  if (keyword == "element" && !(words >> name >> count && count >= 0.0)) return "its header has the line '" + line + "'";
+  num_elements += count;
+  return "";
+}
+
+/// assimp's PLY reader does not return from headers that do not end, and trusts their counts with its memory.
 void checkPlyHeader(const fs::path& path, std::uintmax_t num_bytes) {
   constexpr int kMaxHeaderLines = 1000;
-  const std::string name = "mesh " + path.string() + ": ";
+  const std::string name = "mesh " + path.string() + ": cannot be read as .ply: ";
   std::ifstream file(path, std::ios::binary);
   std::string line;
+  double num_elements = 0.0;
   for (int i = 0; i < kMaxHeaderLines && std::getline(file, line); ++i) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (i == 0 && line != "ply") throw MeshError(name + "cannot be read as .ply: it does not begin with the line 'ply'.");
-    if (line == "end_header") return;
-    std::istringstream words(line);
-    std::string keyword, element;
-    double count = 0.0;
-    // An element takes at least one byte.
-    if (words >> keyword && keyword == "element" && (!(words >> element >> count) || !(count <= static_cast<double>(num_bytes)))) {
-      throw MeshError(name + "is damaged: its header says '" + line + "', the file has " + std::to_string(num_bytes) + " bytes.");
+    if (i == 0 && line != "ply") throw MeshError(name + "it does not begin with the line 'ply'.");
+    if (line == "end_header") {
+      // An element takes at least one byte.
+      const double num_data_bytes = file.eof() ? 0.0 : static_cast<double>(num_bytes) - static_cast<double>(file.tellg());
+      if (num_elements > 0.0 && num_elements <= num_data_bytes) return;
+      throw MeshError(name + "its header promises " + formatCount(num_elements) + " elements, " + formatCount(num_data_bytes) +
+                      " bytes follow.");
     }
+    const std::string problem = findPlyProblem(line, num_elements);
+    if (!problem.empty()) throw MeshError(name + problem + ".");
   }
-  throw MeshError(name + "cannot be read as .ply: its header has no line 'end_header'.");
+  throw MeshError(name + "its header has no line 'end_header'.");
 }
 
 }  // namespace

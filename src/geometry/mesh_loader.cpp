@@ -6,6 +6,7 @@
 #include "polygon_triangulation.h"
 
 #include <assimp/BaseImporter.h>
+#include <assimp/DefaultIOStream.h>
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -40,6 +42,22 @@ std::string formatNumber(double value) {
   return stream.str();
 }
 
+/// A parser that asks again and again for bytes behind the end of a damaged file would never return: it is stopped.
+class FiniteFile : public Assimp::DefaultIOStream {
+ public:
+  FiniteFile(std::FILE* file, const std::string& name) : DefaultIOStream(file, name) {}
+  std::size_t Read(void* buffer, std::size_t size, std::size_t count) override {
+    const std::size_t num_read = DefaultIOStream::Read(buffer, size, count);
+    num_empty_reads_ = num_read == 0 ? num_empty_reads_ + 1 : 0;
+    if (num_empty_reads_ > kMaxEmptyReads) throw std::runtime_error("the file ends where more was expected");
+    return num_read;
+  }
+
+ private:
+  static constexpr int kMaxEmptyReads = 1000;
+  int num_empty_reads_ = 0;
+};
+
 /// assimp may open the mesh file and nothing else: materials and textures are of no use here, and a hostile file could name a
 /// device or a pipe.
 class SingleFileSystem : public Assimp::DefaultIOSystem {
@@ -47,7 +65,8 @@ class SingleFileSystem : public Assimp::DefaultIOSystem {
   explicit SingleFileSystem(std::string path) : path_(std::move(path)) {}
   bool Exists(const char* file) const override { return path_ == file; }
   Assimp::IOStream* Open(const char* file, const char* mode) override {
-    return path_ == file ? DefaultIOSystem::Open(file, mode) : nullptr;
+    std::FILE* handle = path_ == file ? std::fopen(file, mode) : nullptr;
+    return handle == nullptr ? nullptr : new FiniteFile(handle, path_);
   }
 
  private:
