@@ -34,10 +34,11 @@ void SimulatorNodelet::onInit() {
   if (!options_.problems.empty()) return;
   const Scenario scenario = options_.simulation.scenario;
   if (scenario == Scenario::kRobot || scenario == Scenario::kSlip) {
-    NODELET_WARN_STREAM(getName() << ": no robot model is simulated yet: the gripper's commanded motion comes on "
-                                  << getNodeHandle().resolveName("control_twist") << ", joint states do not come");
+    NODELET_WARN_STREAM(getName() << ": no robot model is simulated yet: the gripper's commanded motion comes on control_twist, "
+                                     "joint states do not come");
   }
-  publisher_.emplace(getNodeHandle(), getPrivateNodeHandle(), options_.simulation);
+  const std::string name_space = ros::names::parentNamespace(getName());
+  publisher_.emplace(getNodeHandle(), getPrivateNodeHandle(), name_space, options_.simulation);
   thread_ = std::thread([this] { run(); });
 }
 

@@ -48,16 +48,18 @@ geometry_msgs::TransformStamped frame(const char* parent, const char* child, con
 
 }  // namespace
 
-SimulatorPublisher::SimulatorPublisher(ros::NodeHandle node, ros::NodeHandle private_node, const SimulationConfig& config)
+SimulatorPublisher::SimulatorPublisher(ros::NodeHandle node, ros::NodeHandle private_node, const std::string& name_space,
+                                       const SimulationConfig& config)
     : config_(config) {
-  camera_ = image_transport::ImageTransport(node).advertiseCamera("camera/depth/image_raw", 2);
+  const auto topic = [&](const char* name) { return ros::names::append(name_space, name); };
+  camera_ = image_transport::ImageTransport(node).advertiseCamera(topic("camera/depth/image_raw"), 2);
   camera_info_ = *toCameraInfo(config.camera, std_msgs::Header());
-  truth_ = node.advertise<geometry_msgs::PoseStamped>("ground_truth/pose", 10);
-  occlusion_ = node.advertise<sensor_msgs::Image>("ground_truth/occlusion", 2);
+  truth_ = node.advertise<geometry_msgs::PoseStamped>(topic("ground_truth/pose"), 10);
+  occlusion_ = node.advertise<sensor_msgs::Image>(topic("ground_truth/occlusion"), 2);
   initial_pose_ = private_node.advertise<geometry_msgs::PoseWithCovarianceStamped>("initial_pose", 1, true);
   if (config.scenario == Scenario::kRobot || config.scenario == Scenario::kSlip) {
-    control_twist_ = node.advertise<geometry_msgs::TwistStamped>("control_twist", 30);
-    grasp_ = node.advertise<Grasp>("grasp", 1, true);
+    control_twist_ = node.advertise<geometry_msgs::TwistStamped>(topic("control_twist"), 30);
+    grasp_ = node.advertise<Grasp>(topic("grasp"), 1, true);
   }
 }
 

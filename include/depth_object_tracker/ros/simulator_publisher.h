@@ -9,6 +9,8 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
+#include <string>
+
 namespace depth_object_tracker {
 
 constexpr const char* kWorldFrame = "world";
@@ -18,8 +20,11 @@ constexpr const char* kCameraOpticalFrame = "camera_depth_optical_frame";
 /// Advertises on construction. Publishing is for one thread.
 class SimulatorPublisher {
  public:
-  /// @param node for `camera/...`, `ground_truth/...`, `control_twist`, `grasp`; @param private_node for `~initial_pose`
-  SimulatorPublisher(ros::NodeHandle node, ros::NodeHandle private_node, const SimulationConfig& config);
+  /// @param name_space absolute; `camera/...`, `ground_truth/...`, `control_twist` and `grasp` lie below. Given, because a nodelet
+  ///   of the root namespace has a node handle whose relative names land in its manager's namespace.
+  /// @param private_node for `~initial_pose`
+  SimulatorPublisher(ros::NodeHandle node, ros::NodeHandle private_node, const std::string& name_space,
+                     const SimulationConfig& config);
 
   void publishFrames();
   /// Latched; stamp 0 = good for any time.
