@@ -5,3 +5,6 @@ target_link_libraries(scene_to_bag
   PRIVATE depth_object_tracker_tools depth_object_tracker_warnings CLI11::CLI11 ${catkin_LIBRARIES})
 add_dependencies(scene_to_bag ${${PROJECT_NAME}_EXPORTED_TARGETS})
 list(APPEND ROS_INSTALL_TARGETS scene_to_bag)
+
+catkin_install_python(PROGRAMS scripts/benchmark_sequences scripts/play_bag
+  DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})

@@ -1,0 +1,15 @@
+# Tests of the command-line tools; know no ROS.
+add_library(small_scene STATIC tools/small_scene.cpp)
+target_include_directories(small_scene PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/tools ${CMAKE_CURRENT_SOURCE_DIR}/support)
+target_link_libraries(small_scene
+  PUBLIC depth_object_tracker_core
+  PRIVATE depth_object_tracker_warnings nlohmann_json::nlohmann_json opencv_core opencv_imgcodecs)
+
+add_tracker_test(tools_test
+  SOURCES tools/bop_scene_test.cpp tools/evaluation_test.cpp
+  LIBRARIES small_scene depth_object_tracker_tools GTest::gmock)
+add_tracker_test(track_sequence_test
+  SOURCES tools/track_sequence_test.cpp
+  LIBRARIES small_scene nlohmann_json::nlohmann_json opencv_core opencv_imgcodecs GTest::gmock)
+target_compile_definitions(track_sequence_test PRIVATE TRACK_SEQUENCE="$<TARGET_FILE:track_sequence>")
+add_dependencies(track_sequence_test track_sequence)
