@@ -1,1 +1,9 @@
 # oracle tests
+add_tracker_test(model_oracle_tests SOURCES
+  oracle/measured_image_test.cpp
+  oracle/pixel_density_test.cpp)
+add_tracker_test(likelihood_oracle_tests SOURCES
+  oracle/likelihood_gradient_test.cpp
+  oracle/occlusion_brute_force_test.cpp)
+add_tracker_test(renderer_oracle_tests SOURCES
+  oracle/renderer_test.cpp)
