@@ -67,14 +67,18 @@ catkin_package(
 
 # Targets made before catkin was found go to the devel space too, where rosrun and pluginlib look.
 get_property(EARLIER_TARGETS DIRECTORY PROPERTY BUILDSYSTEM_TARGETS)
+set(ROS_INSTALL_LIBRARIES)
+set(ROS_INSTALL_TARGETS)
 foreach(target ${EARLIER_TARGETS})
   get_target_property(target_type ${target} TYPE)
   if(target_type STREQUAL "EXECUTABLE")
     set_target_properties(${target} PROPERTIES
       RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
+    list(APPEND ROS_INSTALL_TARGETS ${target})
   elseif(target_type STREQUAL "SHARED_LIBRARY")
     set_target_properties(${target} PROPERTIES
       LIBRARY_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_LIB_DESTINATION})
+    list(APPEND ROS_INSTALL_LIBRARIES ${target})
   endif()
 endforeach()
 
@@ -115,16 +119,21 @@ target_link_libraries(depth_object_tracker_nodelets PRIVATE depth_object_tracker
 add_executable(tracker_node src/ros/tracker_node.cpp)
 target_link_libraries(tracker_node PRIVATE depth_object_tracker_ros depth_object_tracker_warnings)
 
-set(ROS_INSTALL_TARGETS tracker_node)
-if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/src/ros/simulator_nodelet.cpp)
-  include(cmake/ros_simulator.cmake OPTIONAL)
-endif()
+list(APPEND ROS_INSTALL_LIBRARIES depth_object_tracker_ros depth_object_tracker_nodelets)
+list(APPEND ROS_INSTALL_TARGETS tracker_node)
+
+# These add their sources to depth_object_tracker_nodelets and their programs to ROS_INSTALL_TARGETS.
+include(cmake/ros_simulator.cmake OPTIONAL)
 include(cmake/ros_tools.cmake OPTIONAL)
 
-install(TARGETS depth_object_tracker_core depth_object_tracker_ros depth_object_tracker_nodelets
+install(TARGETS ${ROS_INSTALL_LIBRARIES}
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
 install(TARGETS ${ROS_INSTALL_TARGETS} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
-install(DIRECTORY launch meshes rviz config DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+foreach(folder config launch meshes rviz)
+  if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${folder})
+    install(DIRECTORY ${folder} DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+  endif()
+endforeach()

@@ -18,8 +18,9 @@ const Color kVisible(0.35f, 0.85f, 0.25f);
 const Color kOccluded(0.20f, 0.20f, 0.95f);
 const Color kOutline(1.0f, 1.0f, 1.0f);
 constexpr float kTintShare = 0.55f;
-constexpr int kShadingReach = 2;           // pixels: structured light is quantised, closer neighbours would give stripes
-constexpr float kDepthEdge = 0.03f;        // of the depth: beyond it neighbours are on different surfaces
+constexpr float kShadingReachPerM = 3.0f;  // pixels per metre of depth
+constexpr int kMinShadingReach = 2, kMaxShadingReach = 8;
+constexpr float kDepthEdge = 0.04f;        // of the depth: beyond it neighbours are on different surfaces
 
 /// Depth as floats with the range that the grey scale spans.
 struct Scene {
@@ -66,15 +67,29 @@ float slope(float before, float after, float centre, int pixels) {
   return std::abs(difference) < kDepthEdge * centre ? difference / static_cast<float>(pixels) : 0.0f;
 }
 
+/// Slopes along both image axes, over a reach that grows with the depth as noise and quantisation do, each the mean of
+/// three lines.
+Eigen::Vector2f slopesAt(const Scene& scene, int row, int col) {
+  const float z = scene.at(row, col);
+  const int reach = std::clamp(static_cast<int>(std::lround(kShadingReachPerM * z)), kMinShadingReach, kMaxShadingReach);
+  const auto clampRow = [&](int r) { return std::clamp(r, 0, scene.height - 1); };
+  const auto clampCol = [&](int c) { return std::clamp(c, 0, scene.width - 1); };
+  const int r0 = clampRow(row - reach), r1 = clampRow(row + reach), c0 = clampCol(col - reach), c1 = clampCol(col + reach);
+  Eigen::Vector2f sum = Eigen::Vector2f::Zero();
+  for (int side = -reach / 2; side <= reach / 2; side += std::max(1, reach / 2)) {
+    const int r = clampRow(row + side), c = clampCol(col + side);
+    sum.x() += slope(scene.at(r, c0), scene.at(r, c1), z, std::max(1, c1 - c0));
+    sum.y() += slope(scene.at(r0, c), scene.at(r1, c), z, std::max(1, r1 - r0));
+  }
+  return sum / 3.0f;
+}
+
 /// Brightness of the surface under a lamp above and left of the camera, in [0, 1].
 float shade(const Scene& scene, int row, int col) {
-  const int r0 = std::max(0, row - kShadingReach), r1 = std::min(scene.height - 1, row + kShadingReach);
-  const int c0 = std::max(0, col - kShadingReach), c1 = std::min(scene.width - 1, col + kShadingReach);
   const float z = scene.at(row, col);
-  const float dz_du = slope(scene.at(row, c0), scene.at(row, c1), z, std::max(1, c1 - c0));
-  const float dz_dv = slope(scene.at(r0, col), scene.at(r1, col), z, std::max(1, r1 - r0));
-  const Eigen::Vector3f normal = Eigen::Vector3f(dz_du * scene.fx / z, dz_dv * scene.fy / z, -1.0f).normalized();
-  static const Eigen::Vector3f kToLamp = Eigen::Vector3f(-0.45f, -0.65f, -0.6f).normalized();
+  const Eigen::Vector2f slopes = slopesAt(scene, row, col);
+  const Eigen::Vector3f normal = Eigen::Vector3f(slopes.x() * scene.fx / z, slopes.y() * scene.fy / z, -1.0f).normalized();
+  static const Eigen::Vector3f kToLamp = Eigen::Vector3f(-0.4f, -0.6f, -0.7f).normalized();
   return std::max(0.0f, normal.dot(kToLamp));
 }
 

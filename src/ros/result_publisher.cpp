@@ -12,8 +12,6 @@
 namespace depth_object_tracker {
 namespace {
 
-bool isListenedTo(const ros::Publisher& publisher) { return publisher && publisher.getNumSubscribers() > 0; }
-
 bool isFinite(const TrackerResult& result) {
   return isValidPose(result.T_camera_object) && result.covariance.allFinite();
 }
@@ -40,6 +38,12 @@ ResultPublisher::ResultPublisher(ros::NodeHandle private_node, const NodeletOpti
   if (options.publish_debug) image_address_ = private_node.advertise<std_msgs::UInt64>("debug/last_image_address", 5, true);
 }
 
+bool ResultPublisher::isWanted(const ros::Publisher& publisher) {
+  if (publisher.getNumSubscribers() == 0) return false;
+  ++num_costly_messages_;
+  return true;
+}
+
 void ResultPublisher::setObject(const BuiltTracker& object) {
   if (object.tracker) marker_builder_.setObject(object);
 }
@@ -50,7 +54,7 @@ void ResultPublisher::publish(const FrameOutcome& outcome, const BuiltTracker& o
   publishParticles(outcome.header, *object.tracker);
   publishOcclusion(outcome.header, *object.tracker);
   publishOverlay(outcome, *object.tracker);
-  if (isListenedTo(marker_) && (!outcome.result.has_pose || isFinite(outcome.result))) {
+  if (isWanted(marker_) && (!outcome.result.has_pose || isFinite(outcome.result))) {
     marker_.publish(marker_builder_.build(outcome.header, outcome.result));
   }
 }
@@ -75,7 +79,7 @@ void ResultPublisher::publishPose(const std_msgs::Header& header, const TrackerR
 }
 
 void ResultPublisher::publishParticles(const std_msgs::Header& header, const ObjectTracker& tracker) {
-  const bool cloud = isListenedTo(particles_), poses = isListenedTo(particle_poses_), points = isListenedTo(particle_points_);
+  const bool cloud = isWanted(particles_), poses = isWanted(particle_poses_), points = isWanted(particle_points_);
   if (!cloud && !poses && !points) return;
   const ParticlePoses particles = tracker.particles();
   if (particles.T_camera_object.empty()) return;
@@ -85,7 +89,7 @@ void ResultPublisher::publishParticles(const std_msgs::Header& header, const Obj
 }
 
 void ResultPublisher::publishOcclusion(const std_msgs::Header& header, const ObjectTracker& tracker) {
-  const bool image = isListenedTo(occlusion_), info = isListenedTo(camera_info_);
+  const bool image = isWanted(occlusion_), info = isWanted(camera_info_);
   if (!image && !info) return;
   const OcclusionMap map = tracker.occlusionMap();
   if (map.p_occluded.empty()) return;
@@ -94,7 +98,7 @@ void ResultPublisher::publishOcclusion(const std_msgs::Header& header, const Obj
 }
 
 void ResultPublisher::publishOverlay(const FrameOutcome& outcome, const ObjectTracker& tracker) {
-  if (!isListenedTo(overlay_)) return;
+  if (!isWanted(overlay_)) return;
   const bool shows_object = outcome.is_new_estimate && hasPoseToTell(outcome.result);
   const auto image = drawOverlay(outcome.depth, outcome.camera, shows_object ? tracker.renderEstimate() : std::vector<float>(),
                                  tracker.occlusionMap());

@@ -27,13 +27,18 @@ class ResultPublisher {
   /// Where the likelihood reads the depth, for tests of zero copy; only with ~publish_debug.
   void publishImageAddress(const std::uint8_t* data);
 
+  /// Particles, pictures and markers made so far: tests see that nobody pays for what nobody wants.
+  std::uint64_t numCostlyMessages() const { return num_costly_messages_; }
+
  private:
+  bool isWanted(const ros::Publisher& publisher);
   void publishPose(const std_msgs::Header& header, const TrackerResult& result, const std::string& child_frame);
   void publishParticles(const std_msgs::Header& header, const ObjectTracker& tracker);
   void publishOcclusion(const std_msgs::Header& header, const ObjectTracker& tracker);
   void publishOverlay(const FrameOutcome& outcome, const ObjectTracker& tracker);
 
   bool publish_tf_;
+  std::uint64_t num_costly_messages_ = 0;
   MarkerBuilder marker_builder_;
   tf2_ros::TransformBroadcaster tf_broadcaster_;
   ros::Publisher pose_, twist_, particles_, particle_poses_, particle_points_, occlusion_, camera_info_, overlay_, marker_,

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_object_tracker/ros/object_source.h"
+
+#include "depth_messages.h"
+#include "temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace depth_object_tracker {
+namespace {
+
+bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(ObjectSource, BuildsFromAMesh) {
+  ObjectSource source;
+  source.mesh = testMeshFile();
+  const BuiltTracker built = buildTracker(source, TrackerConfig());
+  EXPECT_EQ(built.problem, "");
+  ASSERT_TRUE(built.tracker);
+  EXPECT_EQ(built.name, "bracket");
+  EXPECT_EQ(built.tracker->object().name, "bracket");
+}
+
+TEST(ObjectSource, MakesAFrameNameOfTheGivenName) {
+  ObjectSource source;
+  source.mesh = testMeshFile();
+  source.name = "my bracket/2";
+  EXPECT_EQ(buildTracker(source, TrackerConfig()).name, "my_bracket_2");
+}
+
+TEST(ObjectSource, BuildsFromAnObjectFile) {
+  ObjectSource source;
+  source.object_file = "file://" + std::string(PROJECT_SOURCE_FOLDER) + "/test/ros/bracket_object.yaml";
+  const BuiltTracker built = buildTracker(source, TrackerConfig());
+  EXPECT_EQ(built.problem, "");
+  EXPECT_EQ(built.name, "test_bracket");
+  EXPECT_TRUE(mentions(built.mesh_file, "meshes/bracket.obj")) << built.mesh_file;
+}
+
+TEST(ObjectSource, SaysWhatIsWrong) {
+  ObjectSource source;
+  EXPECT_TRUE(mentions(buildTracker(source, TrackerConfig()).problem, "~object_file"));
+  source.mesh = "/no/such/mesh.obj";
+  EXPECT_TRUE(mentions(buildTracker(source, TrackerConfig()).problem, "/no/such/mesh.obj"));
+  source.mesh = testMeshFile();
+  source.mesh_scale = 1000.0;
+  EXPECT_TRUE(mentions(buildTracker(source, TrackerConfig()).problem, "bracket.obj"));
+  source.mesh_scale = -1.0;
+  EXPECT_TRUE(mentions(buildTracker(source, TrackerConfig()).problem, "mesh_scale"));
+  source.object_file = "package://no_such_package_here/x.yaml";
+  EXPECT_TRUE(mentions(buildTracker(source, TrackerConfig()).problem, "no_such_package_here"));
+}
+
+class InitFileTest : public testing::Test {
+ protected:
+  InitFilePose load(const std::string& text) {
+    const std::string path = (folder_.path() / "init.json").string();
+    std::ofstream(path) << text;
+    return loadInitFile(path);
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(InitFileTest, ReadsMillimetresAndRowMajorRotation) {
+  const auto init = load(R"({"cam_R_m2c": [0, -1, 0, 1, 0, 0, 0, 0, 1], "cam_t_m2c": [10, -20, 600], "obj_id": 1})");
+  EXPECT_EQ(init.problem, "");
+  EXPECT_NEAR((init.T_camera_object * Eigen::Vector3d(1.0, 0.0, 0.0) - Eigen::Vector3d(0.01, 0.98, 0.6)).norm(), 0.0, 1e-9);
+}
+
+TEST_F(InitFileTest, SaysWhatIsWrong) {
+  EXPECT_TRUE(mentions(loadInitFile("/no/such/init.json").problem, "/no/such/init.json"));
+  EXPECT_TRUE(mentions(load("{").problem, "init.json"));
+  EXPECT_TRUE(mentions(load(R"({"cam_t_m2c": [1, 2, 3]})").problem, "cam_R_m2c"));
+  EXPECT_TRUE(mentions(load(R"({"cam_R_m2c": [1, 0], "cam_t_m2c": [1, 2, 3]})").problem, "9 numbers"));
+  EXPECT_TRUE(mentions(load(R"({"cam_R_m2c": [2, 0, 0, 0, 1, 0, 0, 0, 1], "cam_t_m2c": [1, 2, 3]})").problem, "rotation"));
+  EXPECT_TRUE(mentions(load(R"({"cam_R_m2c": [-1, 0, 0, 0, 1, 0, 0, 0, 1], "cam_t_m2c": [1, 2, 3]})").problem, "rotation"));
+  EXPECT_NE(load(R"({"cam_R_m2c": "x", "cam_t_m2c": [1, 2, 3]})").problem, "");
+}
+
+}  // namespace
+}  // namespace depth_object_tracker
