@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The tabulated single-precision pixel ratios of the hot loop against the double-precision reference.
+#include "depth_object_tracker/model/measured_image.h"
+
+#include "depth_object_tracker/model/normal_table.h"
+#include "depth_object_tracker/model/pixel_likelihood.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace depth_object_tracker {
+namespace {
+
+/// A row of float readings as a MeasuredImage sees them.
+class RowImage {
+ public:
+  RowImage(std::vector<float> readings, const PixelModelConfig& config)
+      : readings_(std::move(readings)), image_(config) {
+    PinholeCamera camera;
+    camera.width = static_cast<int>(readings_.size());
+    camera.height = 1;
+    camera.fx = camera.fy = 100.0;
+    DepthImageView view;
+    view.data = reinterpret_cast<const std::uint8_t*>(readings_.data());
+    view.width = camera.width;
+    view.height = 1;
+    view.step = readings_.size() * sizeof(float);
+    view.pixel_type = DepthImageView::PixelType::kFloat32;
+    view.unit_m = 1.0f;
+    image_.setImage(view, makeSamplingGrid(camera, 1));
+    image_.prepare(image_.imageBox());
+  }
+
+  const MeasuredPixel& pixel(int col) const { return image_.pixel(0, col); }
+  const MeasuredImage& image() const { return image_; }
+
+ private:
+  std::vector<float> readings_;
+  MeasuredImage image_;
+};
+
+class WithModel : public testing::TestWithParam<OccluderModel> {
+ protected:
+  WithModel() { config_.occluder_model = GetParam(); }
+  PixelModelConfig config_;
+};
+INSTANTIATE_TEST_SUITE_P(Ratios, WithModel, testing::Values(OccluderModel::kConsistent, OccluderModel::kPaper));
+
+TEST_P(WithModel, RatiosEqualTheReference) {
+  std::vector<float> readings;
+  for (float z = 0.2f; z < 6.0f; z += 0.0713f) readings.push_back(z);
+  const RowImage row(readings, config_);
+  double worst = 0.0;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const double z = readings[i];
+    const double stddev = surfaceNoiseStddev(z, config_), miss = missDensity(z, config_);
+    for (double t = -12.0; t <= 12.0; t += 0.0937) {
+      const auto d = static_cast<float>(z + t * stddev);
+      if (d <= 0.05f) continue;
+      const PixelRatios ratios = row.image().ratios(row.pixel(static_cast<int>(i)), d);
+      const double visible = visibleDensity(z, d, config_) / miss, occluded = occludedDensity(z, d, config_) / miss;
+      worst = std::max(
+          {worst, std::abs(std::log(ratios.visible / visible)), std::abs(std::log(ratios.occluded / occluded))});
+      ASSERT_NEAR(std::log(ratios.visible / visible), 0.0, 1e-3) << "z = " << z << ", d = " << d;
+      ASSERT_NEAR(std::log(ratios.occluded / occluded), 0.0, 1e-3) << "z = " << z << ", d = " << d;
+      const double tail = config_.tail_weight / config_.max_depth_m / miss;
+      ASSERT_NEAR(ratios.surface, visible - tail, 1e-3 * visible) << "z = " << z << ", d = " << d;
+    }
+  }
+  std::printf("largest deviation of the tables: %.2e nat\n", worst);
+}
+
+TEST_P(WithModel, RatiosEqualTheReferenceFarFromTheReading) {
+  const std::vector<float> readings = {0.3f, 0.6f, 1.0f, 2.0f, 4.0f, 5.99f, 6.0f};
+  const RowImage row(readings, config_);
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    for (const float d : {0.06f, 0.2f, 0.5f, 1.1f, 2.5f, 5.0f, 9.0f}) {
+      const double z = readings[i], miss = missDensity(z, config_);
+      const PixelRatios ratios = row.image().ratios(row.pixel(static_cast<int>(i)), d);
+      EXPECT_NEAR(ratios.visible, visibleDensity(z, d, config_) / miss,
+                  1e-3 * visibleDensity(z, d, config_) / miss + 1e-12);
+      EXPECT_NEAR(ratios.occluded, occludedDensity(z, d, config_) / miss,
+                  1e-3 * occludedDensity(z, d, config_) / miss + 1e-12);
+    }
+  }
+}
+
+TEST(MeasuredImage, ReadingsWithoutInformationAreMarked) {
+  const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+  const RowImage row({0.0f, nan, infinity, -infinity, -0.5f, 6.01f, 1e9f, 5.99f, 1.0f}, PixelModelConfig());
+  for (int col = 0; col < 7; ++col) EXPECT_EQ(row.pixel(col).depth, 0.0f) << "column " << col;
+  EXPECT_EQ(row.pixel(7).depth, 5.99f);
+  EXPECT_EQ(row.pixel(8).depth, 1.0f);
+}
+
+TEST(MeasuredImage, ReadsOnlyTheBoxesAskedForAndKeepsThem) {
+  PinholeCamera camera;
+  camera.width = 12;
+  camera.height = 9;
+  camera.fx = camera.fy = 10.0;
+  std::vector<std::uint16_t> counts(12 * 9);
+  for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = static_cast<std::uint16_t>(500 + i);
+  DepthImageView view;
+  view.data = reinterpret_cast<const std::uint8_t*>(counts.data());
+  view.width = 12;
+  view.height = 9;
+  view.step = 24;
+  MeasuredImage image((PixelModelConfig()));
+  image.setImage(view, makeSamplingGrid(camera, 1));
+  const CellBox first{2, 4, 5, 8}, second{6, 8, 1, 3};
+  EXPECT_FALSE(image.isPrepared(first));
+  image.prepare(first);
+  EXPECT_TRUE(image.isPrepared(first));
+  EXPECT_FALSE(image.isPrepared(second));
+  EXPECT_TRUE(image.isPrepared({-5, -1, 0, 3})) << "cells outside of the image are never needed";
+  image.prepare(second);
+  for (int row = 2; row < 8; ++row) {
+    for (int col = 1; col < 8; ++col)
+      EXPECT_FLOAT_EQ(image.pixel(row, col).depth, 0.001f * static_cast<float>(500 + 12 * row + col));
+  }
+  counts[12 * 3 + 6] = 4000;
+  image.prepare({0, 9, 0, 12});
+  EXPECT_FLOAT_EQ(image.pixel(3, 6).depth, 0.001f * (500 + 12 * 3 + 6)) << "a pixel is read once a frame";
+  EXPECT_FLOAT_EQ(image.pixel(8, 11).depth, 0.001f * (500 + 12 * 8 + 11));
+  image.setImage(view, makeSamplingGrid(camera, 1));
+  image.prepare(first);
+  EXPECT_FLOAT_EQ(image.pixel(3, 6).depth, 4.0f) << "a new frame is read anew";
+  EXPECT_EQ(image.source(), view.data);
+}
+
+TEST(MeasuredImage, SubSampledCellsAreThePixelsOfTheGrid) {
+  PinholeCamera camera;
+  camera.width = 20;
+  camera.height = 15;
+  camera.fx = camera.fy = 10.0;
+  std::vector<std::uint16_t> counts(20 * 15);
+  for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = static_cast<std::uint16_t>(500 + i);
+  DepthImageView view;
+  view.data = reinterpret_cast<const std::uint8_t*>(counts.data());
+  view.width = 20;
+  view.height = 15;
+  view.step = 40;
+  for (const int factor : {2, 3, 5}) {
+    const SamplingGrid grid = makeSamplingGrid(camera, factor);
+    MeasuredImage image((PixelModelConfig()));
+    image.setImage(view, grid);
+    image.prepare(image.imageBox());
+    for (int row = 0; row < grid.camera.height; ++row) {
+      for (int col = 0; col < grid.camera.width; ++col) {
+        EXPECT_FLOAT_EQ(image.pixel(row, col).depth,
+                        0.001f * static_cast<float>(500 + 20 * grid.fullRow(row) + grid.fullCol(col)));
+      }
+    }
+  }
+}
+
+TEST(MeasuredImage, ValidFractionCountsReadingsInRange) {
+  PinholeCamera camera;
+  camera.width = 80;
+  camera.height = 40;
+  camera.fx = camera.fy = 10.0;
+  std::vector<std::uint16_t> counts(80 * 40, 1000);
+  for (int row = 0; row < 40; ++row) {
+    for (int col = 0; col < 20; ++col) counts[static_cast<std::size_t>(80 * row + col)] = row % 2 == 0 ? 0 : 9000;
+  }
+  DepthImageView view;
+  view.data = reinterpret_cast<const std::uint8_t*>(counts.data());
+  view.width = 80;
+  view.height = 40;
+  view.step = 160;
+  MeasuredImage image((PixelModelConfig()));
+  image.setImage(view, makeSamplingGrid(camera, 2));
+  EXPECT_NEAR(image.validFraction(), 0.75, 1e-9);
+}
+
+TEST(NormalTable, IsWithinItsStatedError) {
+  const NormalTable& table = NormalTable::instance();
+  for (double t = -9.0; t <= 9.0; t += 0.00171) {
+    ASSERT_NEAR(table.bell(static_cast<float>(t)), std::exp(-0.5 * t * t), 1e-5) << t;
+    ASSERT_NEAR(table.cdf(static_cast<float>(t)), 0.5 * std::erfc(-t / std::sqrt(2.0)), 1e-5) << t;
+  }
+  EXPECT_EQ(table.cdf(1e30f), 1.0f);
+  EXPECT_EQ(table.cdf(-1e30f), 0.0f);
+  EXPECT_EQ(table.bell(std::numeric_limits<float>::infinity()), 0.0f);
+}
+
+}  // namespace
+}  // namespace depth_object_tracker
