@@ -4,8 +4,12 @@
 
 #include "depth_object_tracker/simulator/shape_meshes.h"
 
+#include <algorithm>
+
 namespace depth_object_tracker {
 namespace {
+
+constexpr double kMinForearmDepth = -0.1;
 
 Pose linkPose(const Eigen::Vector3d& from_camera, const Eigen::Vector3d& direction_camera) {
   Pose pose = Pose::Identity();
@@ -27,7 +31,10 @@ Arm::Arm(const ArmConfig& config) : config_(config) {
 std::array<Pose, 2> Arm::place(const Eigen::Vector3d& wrist_camera, const Eigen::Vector3d& wrist_out_camera) const {
   const Eigen::Vector3d to_shoulder = (config_.shoulder_camera - wrist_camera).normalized();
   // Joints have limits: the forearm follows the hand only in part and leans toward the shoulder.
-  const Eigen::Vector3d forearm = (0.45 * wrist_out_camera + 0.6 * to_shoulder).normalized();
+  Eigen::Vector3d forearm = 0.45 * wrist_out_camera + 0.6 * to_shoulder;
+  // Nobody holds an elbow before the camera's eye.
+  forearm.z() = std::max(forearm.z(), kMinForearmDepth);
+  forearm.normalize();
   const Eigen::Vector3d elbow = wrist_camera + config_.forearm_m * forearm;
   return {linkPose(wrist_camera, forearm), linkPose(elbow, config_.shoulder_camera - elbow)};
 }
