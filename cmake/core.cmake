@@ -1,7 +1,4 @@
 # depth_object_tracker_core: geometry, render, model, filter, tracker. Knows no ROS.
-find_package(assimp REQUIRED)
-find_package(yaml-cpp REQUIRED)
-
 add_library(depth_object_tracker_core SHARED
   src/filter/depth_likelihood.cpp
   src/filter/gaussian6.cpp
@@ -32,9 +29,10 @@ add_library(depth_object_tracker_core SHARED
   src/tracker/object_model.cpp
   src/tracker/object_tracker.cpp
   src/tracker/parameter_binding.cpp
-  src/tracker/tracker_config_file.cpp
+  src/tracker/pose_search.cpp
   src/tracker/resolution.cpp
   src/tracker/status_monitor.cpp
+  src/tracker/tracker_config_file.cpp
   src/tracker/tracker_parameters.cpp
   src/tracker/tracker_result.cpp
 )

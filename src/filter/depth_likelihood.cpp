@@ -30,6 +30,39 @@ std::vector<Eigen::Vector3f> triangleNormals(const TriangleMesh& mesh) {
   return normals;
 }
 
+/// Surface noise widened by an extra standard deviation [m].
+void widen(MeasuredPixel& pixel, float extra_stddev_m) {
+  const float widened = 1.0f / std::sqrt(1.0f / (pixel.inverse_stddev * pixel.inverse_stddev) + extra_stddev_m * extra_stddev_m);
+  pixel.visible_peak *= widened / pixel.inverse_stddev;
+  pixel.inverse_stddev = widened;
+}
+
+/// What a reading of the surface says: the depth along the beam changes by n.(dt + dtheta x (p - c)) / n.ray.
+void addSurfaceTerm(const MeasuredPixel& pixel, float rendered_depth, float responsibility, const Eigen::Vector3d& ray,
+                    const Eigen::Vector3d& from_centre, const Eigen::Vector3d& normal, Linearisation& sum) {
+  const double slope = normal.dot(ray);
+  if (responsibility < 1e-4f || std::abs(slope) < kMinIncidenceCosine * ray.norm()) return;
+  Vector6d jacobian;
+  jacobian.head<3>() = normal / slope;
+  jacobian.tail<3>() = from_centre.cross(normal) / slope;
+  const double weight = responsibility * pixel.inverse_stddev * pixel.inverse_stddev;
+  sum.gradient += weight * (pixel.depth - rendered_depth) * jacobian;
+  sum.information.selfadjointView<Eigen::Lower>().rankUpdate(jacobian, weight);
+}
+
+/// What a pixel near the outline says: moving the object along the outward image normal covers it more.
+/// @param slope d log L / d distance to the outline [nat/px]. Its square stands for the information (Fisher's identity).
+void addOutlineTerm(double slope, const Eigen::Vector2d& normal, const Eigen::Vector3d& ray, double depth,
+                    const Eigen::Vector3d& from_centre, const PinholeCamera& camera, Linearisation& sum) {
+  const Eigen::Vector3d image_motion(camera.fx * normal.x() / depth, camera.fy * normal.y() / depth,
+                                     -(camera.fx * normal.x() * ray.x() + camera.fy * normal.y() * ray.y()) / depth);
+  Vector6d jacobian;
+  jacobian.head<3>() = image_motion;
+  jacobian.tail<3>() = from_centre.cross(image_motion);
+  sum.gradient += slope * jacobian;
+  sum.information.selfadjointView<Eigen::Lower>().rankUpdate(jacobian, slope * slope);
+}
+
 /// Log of a product of many positive factors; takes one logarithm for many of them.
 class LogProduct {
  public:
@@ -141,32 +174,28 @@ Linearisation DepthLikelihood::linearise(const Pose& T_camera_centre, double ext
   const Eigen::Matrix3d R = T_camera_centre.linear();
   const Eigen::Vector3d centre = T_camera_centre.translation();
   const PinholeCamera& camera = image_.grid().camera;
-  const auto extra = static_cast<float>(extra_stddev_m);
+  const SoftOutline& outline = outlines_[static_cast<std::size_t>(thread)];
   for (const SoftPixel& covered : render(T_camera_centre, thread)) {
     MeasuredPixel pixel = image_.pixel(covered.row, covered.col);
-    if (pixel.depth <= 0.0f || covered.coverage < 0.5f) continue;
-    if (extra > 0.0f) {
-      const float widened = 1.0f / std::sqrt(1.0f / (pixel.inverse_stddev * pixel.inverse_stddev) + extra * extra);
-      pixel.visible_peak *= widened / pixel.inverse_stddev;
-      pixel.inverse_stddev = widened;
-    }
+    if (pixel.depth <= 0.0f) continue;
+    if (extra_stddev_m > 0.0) widen(pixel, static_cast<float>(extra_stddev_m));
     const PixelRatios ratios = image_.ratios(pixel, covered.depth);
     const float p_occluded = meanBelief(covered.row, covered.col);
     const float hit = (1.0f - p_occluded) * ratios.visible + p_occluded * ratios.occluded;
-    const float responsibility =
-        covered.coverage * (1.0f - p_occluded) * ratios.surface / (1.0f + covered.coverage * (hit - 1.0f));
-    if (responsibility < 1e-4f) continue;
-    const Eigen::Vector3d normal = R * normals_object_[covered.triangle].cast<double>();
+    const float total = 1.0f + covered.coverage * (hit - 1.0f);
     const Eigen::Vector3d ray = camera.ray(covered.col, covered.row);
-    const double slope = normal.dot(ray);
-    if (std::abs(slope) < kMinIncidenceCosine * ray.norm()) continue;
-    // Change of depth along the beam: n.(dt + dtheta x (p - c)) / n.ray
-    Vector6d jacobian;
-    jacobian.head<3>() = normal / slope;
-    jacobian.tail<3>() = (ray * covered.depth - centre).cross(normal) / slope;
-    const double weight = responsibility * pixel.inverse_stddev * pixel.inverse_stddev;
-    result.gradient += weight * (pixel.depth - covered.depth) * jacobian;
-    result.information.selfadjointView<Eigen::Lower>().rankUpdate(jacobian, weight);
+    const Eigen::Vector3d from_centre = ray * covered.depth - centre;
+    if (covered.coverage >= 0.5f) {
+      const float responsibility = covered.coverage * (1.0f - p_occluded) * ratios.surface / total;
+      addSurfaceTerm(pixel, covered.depth, responsibility, ray, from_centre,
+                     R * normals_object_[covered.triangle].cast<double>(), result);
+    }
+    if (covered.coverage < 1.0f) {
+      const double edge_stddev = edgeStddev(), distance = outline.distance(covered);
+      const double density = std::exp(-0.5 * distance * distance / (edge_stddev * edge_stddev)) / (edge_stddev * std::sqrt(2.0 * M_PI));
+      addOutlineTerm(density * (hit - 1.0) / total, outline.outwardNormal(covered).cast<double>(), ray, covered.depth, from_centre,
+                     camera, result);
+    }
   }
   result.information = result.information.selfadjointView<Eigen::Lower>();
   return result;

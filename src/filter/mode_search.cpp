@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace depth_object_tracker {
 namespace {
@@ -17,8 +19,10 @@ constexpr double kMaxStepM = 0.03;
 constexpr double kMaxStepRad = 0.35;
 constexpr double kConvergedStep = 2e-5;      // m, and rad times the object's radius
 constexpr double kFreeDirectionStddevM = 0.7e-3;
-constexpr double kMaxProbeM = 0.012;
+constexpr double kMaxProbeM = 0.02;
 constexpr int kMaxFreeDirections = 3;
+constexpr int kMaxExplorations = 2;
+constexpr double kWorthMovingNat = 0.5;
 constexpr double kSameModeM = 2e-3;          // modes nearer than this are one
 constexpr double kCompetingNat = 12.0;       // modes less probable by more than this are dropped
 
@@ -51,8 +55,7 @@ std::vector<LocalMode> ModeSearch::run(const PredictedPose& predicted, const std
       return surfaceMotion(difference(mode.pose, other.pose), object_radius_m_) < kSameModeM;
     });
     if (known) continue;
-    probeFreeDirections(mode);
-    modes.push_back(mode);
+    modes.push_back(exploreFreeDirections(predicted, mode));
   }
   return modes;
 }
@@ -102,29 +105,56 @@ double ModeSearch::temperedLogLikelihood(const Pose& pose) {
   return exponent_ * likelihood_.logLikelihood(pose, 0);
 }
 
-void ModeSearch::probeFreeDirections(LocalMode& mode) {
-  // Depth inside of the outline says nothing about a face that slides in its own plane; the outline does, but only in steps
-  // of whole pixels. Finite differences over the posterior's own width see it.
+LocalMode ModeSearch::exploreFreeDirections(const PredictedPose& predicted, LocalMode mode) {
+  // Depth inside of the outline says little about a face that slides in its own plane or a mug that turns about its axis: the
+  // mode that was climbed may be one of several. Probes at the posterior's own scale find better ones and measure curvature.
+  for (int round = 0; round < kMaxExplorations; ++round) {
+    std::optional<Pose> better;
+    LocalMode probed = mode;
+    for (const auto& [direction, reach] : freeDirections(mode)) {
+      const std::optional<Pose> found = probeDirection(predicted, direction, reach, probed);
+      if (found && !better) better = found;
+    }
+    if (!better) return probed;
+    LocalMode climbed = climb(predicted, {*better, kNarrowestWidthM});
+    if (climbed.log_posterior <= mode.log_posterior + kWorthMovingNat) return probed;
+    mode = climbed;
+  }
+  for (const auto& [direction, reach] : freeDirections(mode)) probeDirection(predicted, direction, reach, mode);
+  return mode;
+}
+
+std::vector<std::pair<Vector6d, double>> ModeSearch::freeDirections(const LocalMode& mode) const {
   Matrix6d information = mode.information;
   information.diagonal() += step_.component(0).variances.cwiseInverse();
   Vector6d scale = Vector6d::Ones();
   scale.tail<3>().setConstant(1.0 / object_radius_m_);  // rotations in metres of surface motion
   const Matrix6d scaled = scale.asDiagonal() * information * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix6d> directions(scaled);
+  std::vector<std::pair<Vector6d, double>> result;
   for (int k = 0; k < kMaxFreeDirections; ++k) {  // eigenvalues ascend
     const double stddev = 1.0 / std::sqrt(std::max(directions.eigenvalues()[k], 1e-12));
     if (stddev < kFreeDirectionStddevM) break;
-    probeDirection(mode, scale.asDiagonal() * directions.eigenvectors().col(k), std::min(2.0 * stddev, kMaxProbeM));
+    result.emplace_back(scale.asDiagonal() * directions.eigenvectors().col(k), std::min(2.0 * stddev, kMaxProbeM));
   }
+  return result;
 }
 
-void ModeSearch::probeDirection(LocalMode& mode, const Vector6d& direction, double reach) {
+std::optional<Pose> ModeSearch::probeDirection(const PredictedPose& predicted, const Vector6d& direction, double reach,
+                                               LocalMode& mode) {
   // Least-squares parabola through five points at -h, -h/2, 0, h/2, h: y = y0 + a x + b x^2 with x = offset / h.
   constexpr std::array<double, 4> kOffsets = {-1.0, -0.5, 0.5, 1.0};
   std::array<double, 4> values;
+  std::optional<Pose> better;
+  double best = mode.log_posterior + kWorthMovingNat;
   for (std::size_t i = 0; i < kOffsets.size(); ++i) {
-    values[i] = temperedLogLikelihood(perturb(mode.pose, kOffsets[i] * reach * direction));
-    if (!std::isfinite(values[i])) return;
+    const Pose pose = perturb(mode.pose, kOffsets[i] * reach * direction);
+    values[i] = temperedLogLikelihood(pose);
+    if (!std::isfinite(values[i])) return better;
+    const double log_posterior = values[i] + logPrior(pose, predicted);
+    if (log_posterior <= best) continue;
+    best = log_posterior;
+    better = pose;
   }
   const double centre = mode.log_likelihood;
   const double linear = (-values[0] - 0.5 * values[1] + 0.5 * values[2] + values[3]) / 2.5;
@@ -132,12 +162,13 @@ void ModeSearch::probeDirection(LocalMode& mode, const Vector6d& direction, doub
   const double quadratic = (0.5 * (values[0] + values[3]) - 0.25 * (values[1] + values[2]) - 0.5 * centre) / 0.875;
   const double measured = -2.0 * quadratic / (reach * reach);
   const double known = direction.dot(mode.information * direction);
-  if (!(measured > known)) return;
+  if (!(measured > known)) return better;
   // Slope and information along the direction alone become the measured ones.
   const double squared = direction.squaredNorm();
   const Vector6d along = direction / squared;
   mode.information += (measured - known) * along * along.transpose();
   mode.slope += (linear / reach - mode.slope.dot(direction)) * along;
+  return better;
 }
 
 }  // namespace depth_object_tracker

@@ -42,6 +42,21 @@ const std::vector<SoftPixel>& SoftOutline::soften(const std::vector<CoveredPixel
   return soft_;
 }
 
+float SoftOutline::distanceOf(std::int8_t level) {
+  constexpr float kDistances[] = {-1.5f, -0.5f, -kFar, 0.5f, 1.5f, kFar, kFar};
+  return kDistances[level + 2];
+}
+
+Eigen::Vector2f SoftOutline::outwardNormal(const SoftPixel& pixel) const {
+  // Sobel operator on the distance, which falls towards the outside.
+  const auto at = [&](int d_row, int d_col) { return distanceOf(level_[cell(pixel.row + d_row, pixel.col + d_col)]); };
+  const float du = at(-1, 1) + 2.0f * at(0, 1) + at(1, 1) - at(-1, -1) - 2.0f * at(0, -1) - at(1, -1);
+  const float dv = at(1, -1) + 2.0f * at(1, 0) + at(1, 1) - at(-1, -1) - 2.0f * at(-1, 0) - at(-1, 1);
+  const Eigen::Vector2f normal(-du, -dv);
+  const float norm = normal.norm();
+  return norm > 1e-3f ? Eigen::Vector2f(normal / norm) : Eigen::Vector2f::Zero();
+}
+
 void SoftOutline::markCovered(const std::vector<CoveredPixel>& covered) {
   int min_col = covered.front().col, max_col = covered.front().col;
   for (const CoveredPixel& pixel : covered) {

@@ -5,6 +5,7 @@
 #include "depth_object_tracker/filter/particle_filter.h"
 #include "depth_object_tracker/filter/stopwatch.h"
 #include "depth_object_tracker/tracker/frame_clock.h"
+#include "depth_object_tracker/tracker/pose_search.h"
 #include "depth_object_tracker/tracker/resolution.h"
 #include "depth_object_tracker/tracker/status_monitor.h"
 
@@ -16,6 +17,11 @@ namespace {
 
 // Spread of an angle that nothing can be known of.
 constexpr double kFreeAngleVariance = M_PI * M_PI / 3.0;
+
+constexpr int kInitialStarts = 16;
+constexpr int kSearchStarts = 10;
+// With less of the object in view, a wrong pose may look as good as the right one.
+constexpr double kSearchBelowVisibleFraction = 0.3;
 
 Symmetries aboutCentre(Symmetries symmetries, const Eigen::Vector3d& centre_object) {
   for (SymmetryAxis& axis : symmetries.continuous) axis.offset -= centre_object;
@@ -50,7 +56,8 @@ class ObjectTracker::Implementation {
                    config.filter.num_threads),
         filter(config.filter, objectRadius(object.mesh, centre_object), aboutCentre(object.symmetries, centre_object)),
         resolution(config.resolution),
-        status(config.status) {}
+        status(config.status),
+        search(config.filter.seed) {}
 
   TrackerResult update(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s,
                        const std::optional<ControlInput>& control);
@@ -72,6 +79,9 @@ class ObjectTracker::Implementation {
   ParticleFilter filter;
   ResolutionChooser resolution;
   StatusMonitor status;
+  PoseSearch search;
+  Pose last_seen_centre = Pose::Identity();
+  double unseen_s = 0.0;                      // since the object was last seen well
   FrameClock clock;
   std::optional<Vector6d> initial_variances;  // set by initialise, used by the next image
   double full_resolution_pixels = 0.0;        // that the object covers
@@ -81,7 +91,15 @@ class ObjectTracker::Implementation {
  private:
   bool checkInput(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s);
   FrameClock::Step advanceClock(double stamp_s);
+  double projectedPixels(const PinholeCamera& camera) const;
   double diffusionScale() const;
+  /// What is known before the image beyond the process model: an initial pose, or that the object was lost.
+  struct Uncertainty {
+    std::optional<Vector6d> variances;     ///< replace the process noise
+    std::vector<ModeSearchStart> starts;   ///< further places to look at
+  };
+  Uncertainty describeUncertainty(double dt_s);
+  void rememberWhenSeen(const FilterEstimate& estimate, double dt_s);
   void writeEstimate(const FilterEstimate& estimate);
   void writeStatus(const PoseAssessment& assessment);
 };
@@ -94,20 +112,22 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
   const FrameClock::Step time = advanceClock(stamp_s);
   if (time.event == FrameClock::Event::kDuplicate) return result;
 
+  if (full_resolution_pixels <= 0.0) full_resolution_pixels = projectedPixels(camera);
   const SamplingGrid grid = makeSamplingGrid(camera, resolution.choose(full_resolution_pixels));
   likelihood.setImage(depth, grid, time.dt_s);
 
-  const ProcessStep step = initial_variances
-                               ? ProcessStep(config.process, *initial_variances)
-                               : ProcessStep(config.process, time.dt_s, control, centre_object, diffusionScale());
-  initial_variances.reset();
   const double exponent = likelihoodExponent(config.filter, grid.factor);
-  const FilterEstimate estimate = filter.update(likelihood, step, exponent);
+  const Uncertainty uncertainty = describeUncertainty(time.dt_s);
+  const ProcessStep step = uncertainty.variances
+                               ? ProcessStep(config.process, *uncertainty.variances)
+                               : ProcessStep(config.process, time.dt_s, control, centre_object, diffusionScale());
+  const FilterEstimate estimate = filter.update(likelihood, step, exponent, uncertainty.starts);
   likelihood.setWeights(filter.weights());
 
   const PoseAssessment assessment = likelihood.assess(estimate.pose.mean, 0);
   full_resolution_pixels = assessment.covered_pixels * static_cast<double>(grid.factor * grid.factor);
   status.update(assessment, time.dt_s);
+  rememberWhenSeen(estimate, time.dt_s);
   result.grasped = control && control->grasped;
   result.downsampling = grid.factor;
   writeEstimate(estimate);
@@ -140,6 +160,13 @@ bool ObjectTracker::Implementation::checkInput(const DepthImageView& depth, cons
   return true;
 }
 
+double ObjectTracker::Implementation::projectedPixels(const PinholeCamera& camera) const {
+  constexpr int kCoarse = 4;
+  DepthRenderer renderer(object.mesh);
+  const auto& covered = renderer.render(toObject(filter.poses().front()), makeSamplingGrid(camera, kCoarse).camera);
+  return static_cast<double>(covered.size()) * kCoarse * kCoarse;
+}
+
 FrameClock::Step ObjectTracker::Implementation::advanceClock(double stamp_s) {
   const FrameClock::Step time = clock.advance(stamp_s);
   if (time.event == FrameClock::Event::kDuplicate) {
@@ -152,6 +179,32 @@ FrameClock::Step ObjectTracker::Implementation::advanceClock(double stamp_s) {
     initial_variances = defaultInitialVariances(config.initialisation);
   }
   return time;
+}
+
+ObjectTracker::Implementation::Uncertainty ObjectTracker::Implementation::describeUncertainty(double dt_s) {
+  Uncertainty result;
+  if (config.filter.proposal == Proposal::kProcess) {
+    result.variances.swap(initial_variances);
+    return result;
+  }
+  if (initial_variances) {
+    result.variances.swap(initial_variances);
+    result.starts = search.around(filter.poses().front(), *result.variances, kInitialStarts);
+  } else if (status.state() == TrackerState::kLost || status.misfit()) {
+    const Vector6d variances = searchVariances(unseen_s + dt_s);
+    if (status.state() == TrackerState::kLost) result.variances = variances;
+    result.starts = search.around(last_seen_centre, variances, kSearchStarts);
+  } else if (status.visibleFraction() < kSearchBelowVisibleFraction) {
+    result.starts = search.around(last_seen_centre, searchVariances(unseen_s + dt_s), kSearchStarts);
+  }
+  return result;
+}
+
+void ObjectTracker::Implementation::rememberWhenSeen(const FilterEstimate& estimate, double dt_s) {
+  const bool seen = status.state() == TrackerState::kTracking && !status.misfit() &&
+                    status.visibleFraction() >= kSearchBelowVisibleFraction;
+  unseen_s = seen ? 0.0 : unseen_s + dt_s;
+  if (seen) last_seen_centre = estimate.pose.mean;
 }
 
 double ObjectTracker::Implementation::diffusionScale() const {
@@ -208,6 +261,8 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
     self.initial_variances = transportCovariance(covariance, centre_from_origin).diagonal();
   }
   self.filter.initialise(T_camera_centre);
+  self.last_seen_centre = T_camera_centre;
+  self.unseen_s = 0.0;
   self.likelihood.resetOcclusion();
   self.clock.reset();
   self.status.restart();

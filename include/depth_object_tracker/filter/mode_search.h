@@ -5,6 +5,8 @@
 #include "depth_object_tracker/filter/pose_likelihood.h"
 #include "depth_object_tracker/model/process_model.h"
 
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace depth_object_tracker {
@@ -43,8 +45,11 @@ class ModeSearch {
   LocalMode climb(const PredictedPose& predicted, const ModeSearchStart& start);
   Vector6d newtonStep(const PredictedPose& predicted, const Matrix6d& prior_information, const Linearisation& model,
                       const Pose& pose) const;
-  void probeFreeDirections(LocalMode& mode);
-  void probeDirection(LocalMode& mode, const Vector6d& direction, double reach);
+  LocalMode exploreFreeDirections(const PredictedPose& predicted, LocalMode mode);
+  /// Directions that the posterior leaves widest, and how far to probe along each [units of the direction].
+  std::vector<std::pair<Vector6d, double>> freeDirections(const LocalMode& mode) const;
+  /// Measures slope and curvature along a direction. @return a pose met on the way that is better than the mode.
+  std::optional<Pose> probeDirection(const PredictedPose& predicted, const Vector6d& direction, double reach, LocalMode& mode);
   Matrix6d priorInformation(const PredictedPose& predicted) const;
   double logPrior(const Pose& pose, const PredictedPose& predicted) const;
   double temperedLogLikelihood(const Pose& pose);

@@ -26,7 +26,16 @@ class SoftOutline {
   const std::vector<SoftPixel>& soften(const std::vector<CoveredPixel>& covered, const PinholeCamera& camera,
                                        double edge_stddev_px);
 
+  /// Of the pixels that soften() returned last: distance [px] to the outline, positive inside; +-0.5, +-1.5, or kFar.
+  float distance(const SoftPixel& pixel) const { return distanceOf(level_[cell(pixel.row, pixel.col)]); }
+  /// ... and the image direction (u, v) that leads out of the object; zero where it is not defined. Only near the outline.
+  Eigen::Vector2f outwardNormal(const SoftPixel& pixel) const;
+
+  static constexpr float kFar = 2.5f;
+
  private:
+  static float distanceOf(std::int8_t level);
+
   static constexpr int kReach = 2;  // pixels to either side of the outline
 
   void markCovered(const std::vector<CoveredPixel>& covered);

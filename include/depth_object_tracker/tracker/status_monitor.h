@@ -24,6 +24,7 @@ class StatusMonitor {
   TrackerState state() const { return state_; }
   const std::string& reason() const { return reason_; }
   double visibleFraction() const { return visible_fraction_; }  ///< [0, 1]
+  bool misfit() const { return misfit_s_ > 0.0; }               ///< the last image did not fit
   double score() const { return score_; }                       ///< 1 = as the sensor model expects
 
  private:

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where to look for the object when its pose is not well known: at the start, while it is hidden, after a loss.
+#pragma once
+
+#include "depth_object_tracker/filter/mode_search.h"
+#include "depth_object_tracker/filter/random.h"
+#include "depth_object_tracker/tracker/tracker_result.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace depth_object_tracker {
+
+class PoseSearch {
+ public:
+  explicit PoseSearch(std::uint64_t seed) : random_(seed) {}
+
+  /// Starts drawn from N(mean, variances), the mean itself among them.
+  std::vector<ModeSearchStart> around(const Pose& T_camera_centre, const Vector6d& variances, int count);
+
+ private:
+  RandomSource random_;
+  std::uint64_t call_ = 0;
+};
+
+/// How far the object may have gone from where it was last seen [m^2, rad^2].
+/// @param hidden_s seconds since it was last seen, >= 0.
+Vector6d searchVariances(double hidden_s);
+
+}  // namespace depth_object_tracker

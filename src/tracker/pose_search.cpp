@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_object_tracker/tracker/pose_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace depth_object_tracker {
+namespace {
+
+constexpr double kStartWidthM = 0.016;
+
+}  // namespace
+
+std::vector<ModeSearchStart> PoseSearch::around(const Pose& T_camera_centre, const Vector6d& variances, int count) {
+  ++call_;
+  std::vector<ModeSearchStart> starts;
+  for (int i = 0; i < count; ++i) {
+    Vector6d displacement = Vector6d::Zero();
+    if (i > 0) {
+      const Vector6d normal = random_.normal6(RandomPurpose::kSearch, call_, static_cast<std::uint32_t>(i));
+      displacement = variances.cwiseSqrt().cwiseProduct(normal);
+    }
+    starts.push_back({perturb(T_camera_centre, displacement), kStartWidthM});
+  }
+  return starts;
+}
+
+Vector6d searchVariances(double hidden_s) {
+  const double position_stddev_m = std::min(0.03 + 0.05 * hidden_s, 0.20);
+  const double rotation_stddev_rad = std::min(0.25 + 0.3 * hidden_s, 1.0);
+  Vector6d variances;
+  variances.head<3>().setConstant(position_stddev_m * position_stddev_m);
+  variances.tail<3>().setConstant(rotation_stddev_rad * rotation_stddev_rad);
+  return variances;
+}
+
+}  // namespace depth_object_tracker
