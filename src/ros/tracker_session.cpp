@@ -197,29 +197,33 @@ void TrackerSession::runTracker(FrameOutcome& outcome) {
   answerWaiting(outcome);
 }
 
-void TrackerSession::reportInput(const TrackerResult& result, const std_msgs::Header& header) {
+/// Says in the log, and where it explains the state also in the reason, what was wrong with the image.
+void TrackerSession::reportInput(TrackerResult& result, const std_msgs::Header& header) {
+  using Input = TrackerResult::Input;
+  if (result.input == Input::kUsed && result.state != TrackerState::kUninitialized && result.valid_pixel_fraction <= 0.0) {
+    result.input = Input::kNoValidDepth;
+  }
+  const std::string image = "image on '" + image_topic_ + "' ";
   std::ostringstream text;
   switch (result.input) {
-    case TrackerResult::Input::kUsed: return;
-    case TrackerResult::Input::kDuplicateStamp:
-      text << "image on '" << image_topic_ << "' ignored: its stamp " << header.stamp
+    case Input::kUsed: return;
+    case Input::kDuplicateStamp:
+      text << image << "ignored: its stamp " << header.stamp
            << " repeats the one before; check the driver, or for two publishers on the topic";
       break;
-    case TrackerResult::Input::kTimeJumpedBack:
-      text << "the stamp of the image on '" << image_topic_ << "' jumped back to " << header.stamp
+    case Input::kTimeJumpedBack:
+      text << image << "jumped back in time, to " << header.stamp
            << " (a bag that loops, or a clock that was set): starting anew from the last pose";
       twists_.clear();
       if (ros::Time::isSimTime()) tf_.clear();  // keeps static transforms
       break;
-    case TrackerResult::Input::kNoValidDepth:
-      text << "the image on '" << image_topic_ << "' has no valid depth (all 0, NaN or out of range)"
-           << (result.reason.empty() ? "" : ": " + result.reason);
+    case Input::kNoValidDepth:
+      text << image << "has no valid depth (all 0, NaN or out of range): is the camera covered, too near, or switched off?";
       break;
-    case TrackerResult::Input::kUnusable:
-      text << "the image on '" << image_topic_ << "' cannot be used: " << result.reason;
-      break;
+    case Input::kUnusable: text << image << "cannot be used: " << result.reason; break;
   }
   log_.warn(text.str());
+  if (result.input == Input::kNoValidDepth && result.state != TrackerState::kTracking) result.reason = text.str();
 }
 
 void TrackerSession::answerWaiting(const FrameOutcome& outcome) {

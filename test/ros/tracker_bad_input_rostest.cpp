@@ -50,7 +50,7 @@ class BadInput : public testing::Test {
       status = tracker().send(make_image());
     }
     EXPECT_NE(static_cast<int>(status.state), static_cast<int>(TrackerStatus::TRACKING));
-    EXPECT_NE(status.reason, "");
+    EXPECT_NE(status.reason.find("no valid depth"), std::string::npos) << status.reason;
     EXPECT_EQ(status.valid_pixel_fraction, 0.0f);
     EXPECT_TRUE(tracker().waitForLog({"/camera/depth/image_raw", "no valid depth"}));
   }
@@ -148,7 +148,7 @@ TEST_F(BadInput, StampsTenSecondsAheadAndBack) {
   tracker().expectTracking();
   tracker().setStamp(tracker().stamp() - ros::Duration(10.0));
   tracker().send(tracker().goodImage());
-  EXPECT_TRUE(tracker().waitForLog({"/camera/depth/image_raw", "jumped back"}));
+  EXPECT_TRUE(tracker().waitForLog({"/camera/depth/image_raw", "jumped back in time"}));
   tracker().expectTracking();
 }
 

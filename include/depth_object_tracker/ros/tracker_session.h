@@ -87,7 +87,7 @@ class TrackerSession {
   std::string applyPendingPose();
   std::optional<ControlInput> controlFor(double stamp_s);
   void runTracker(FrameOutcome& outcome);
-  void reportInput(const TrackerResult& result, const std_msgs::Header& header);
+  void reportInput(TrackerResult& result, const std_msgs::Header& header);
   void answerWaiting(const FrameOutcome& outcome);
   TrackerResult refusedResult(const std::string& reason) const;
 
