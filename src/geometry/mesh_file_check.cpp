@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstring>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <sstream>
 #include <system_error>
@@ -62,6 +64,47 @@ void checkPlyHeader(const fs::path& path, std::uintmax_t num_bytes) {
   throw MeshError(name + "its header has no line 'end_header'.");
 }
 
+/// Calls `check(attributes, text)` for every element of that name: what stands in its tag, and its text up to the next tag.
+template <typename Check>
+void forEachElement(const std::string& xml, const std::string& element, const Check& check) {
+  const std::string opening = "<" + element;
+  for (std::size_t begin = xml.find(opening); begin != std::string::npos; begin = xml.find(opening, begin + 1)) {
+    const std::size_t attributes = begin + opening.size();
+    const std::size_t end = xml.find('>', attributes);
+    if (end == std::string::npos) return;
+    if (xml[attributes] != '>' && std::isspace(static_cast<unsigned char>(xml[attributes])) == 0) continue;  // a longer name
+    const std::size_t text_end = std::min(xml.find('<', end), xml.size());
+    check(xml.substr(attributes, end - attributes), xml.substr(end + 1, text_end - end - 1));
+  }
+}
+
+/// assimp's Collada reader does not return from index lists that hold anything but integers, and crashes on arrays without count.
+void checkDaeText(const fs::path& path) {
+  const std::string name = "mesh " + path.string() + ": cannot be read as .dae: ";
+  std::ifstream file(path, std::ios::binary);
+  const std::string xml((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  for (const char* element : {"p", "vcount"}) {
+    forEachElement(xml, element, [&](const std::string&, const std::string& text) {
+      const std::size_t position = text.find_first_not_of("0123456789 \t\r\n");
+      if (position == std::string::npos) return;
+      throw MeshError(name + "an index list <" + element + "> holds '" + text.substr(position, 8) + "' where an integer was expected.");
+    });
+  }
+  for (const char* element : {"float_array", "Name_array", "IDREF_array"}) {
+    forEachElement(xml, element, [&](const std::string& attributes, const std::string&) {
+      if (attributes.find("count=") == std::string::npos) throw MeshError(name + "an element <" + element + "> has no count.");
+    });
+  }
+  for (const char* attribute : {" count=\"", " stride=\"", " offset=\""}) {
+    for (std::size_t i = xml.find(attribute); i != std::string::npos; i = xml.find(attribute, i + 1)) {
+      const std::size_t begin = i + std::strlen(attribute);
+      const std::string value = xml.substr(begin, std::min(xml.find('"', begin), xml.size()) - begin);
+      const bool is_count = !value.empty() && value.size() <= 9 && value.find_first_not_of("0123456789") == std::string::npos;
+      if (!is_count) throw MeshError(name + "the attribute" + attribute + value.substr(0, 20) + "\" is not a count.");
+    }
+  }
+}
+
 }  // namespace
 
 std::string lowerCaseExtension(const std::filesystem::path& path) {
@@ -95,6 +138,7 @@ void checkMeshFile(const std::filesystem::path& path) {
   }
   if (!std::ifstream(path)) throw MeshError(name + "the file cannot be opened: check its permissions.");
   if (extension == "ply") checkPlyHeader(path, num_bytes);
+  if (extension == "dae") checkDaeText(path);
 }
 
 }  // namespace depth_object_tracker
