@@ -1,4 +1,8 @@
 # The simulator's nodelet and node; the monitor that compares the tracker with its ground truth.
+if(NOT WITH_ROS)
+  return()
+endif()
+
 add_library(depth_object_tracker_ros_simulator SHARED
   src/ros/simulator_monitor.cpp
   src/ros/simulator_nodelet.cpp
@@ -17,6 +21,3 @@ target_link_libraries(simulator_node PRIVATE depth_object_tracker_ros_simulator 
 
 add_executable(demo_monitor src/ros/simulator_monitor_node.cpp)
 target_link_libraries(demo_monitor PRIVATE depth_object_tracker_ros_simulator depth_object_tracker_warnings)
-
-list(APPEND ROS_INSTALL_LIBRARIES depth_object_tracker_ros_simulator)
-list(APPEND ROS_INSTALL_TARGETS simulator_node demo_monitor)

@@ -1,8 +1,4 @@
 # depth_object_tracker_simulator: a simulated depth camera; knows no ROS. simulate_scene writes its images as scene folders.
-find_package(OpenCV REQUIRED COMPONENTS core imgcodecs)
-find_package(nlohmann_json REQUIRED)
-find_package(CLI11 REQUIRED)
-
 add_library(depth_object_tracker_simulator SHARED
   src/simulator/arm.cpp
   src/simulator/depth_sensor.cpp

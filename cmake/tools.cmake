@@ -1,8 +1,4 @@
 # depth_object_tracker_tools and the command-line programs. Know no ROS.
-find_package(nlohmann_json 3.7 REQUIRED)
-find_package(CLI11 REQUIRED)
-find_package(OpenCV REQUIRED COMPONENTS core imgcodecs)
-
 add_library(depth_object_tracker_tools SHARED
   src/tools/bop_models_info.cpp
   src/tools/bop_scene.cpp
