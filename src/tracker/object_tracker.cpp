@@ -182,22 +182,22 @@ FrameClock::Step ObjectTracker::Implementation::advanceClock(double stamp_s) {
 }
 
 ObjectTracker::Implementation::Uncertainty ObjectTracker::Implementation::describeUncertainty(double dt_s) {
-  Uncertainty result;
+  Uncertainty uncertainty;
   if (config.filter.proposal == Proposal::kProcess) {
-    result.variances.swap(initial_variances);
-    return result;
+    uncertainty.variances.swap(initial_variances);
+    return uncertainty;
   }
   if (initial_variances) {
-    result.variances.swap(initial_variances);
-    result.starts = search.around(filter.poses().front(), *result.variances, kInitialStarts);
+    uncertainty.variances.swap(initial_variances);
+    uncertainty.starts = search.around(filter.poses().front(), *uncertainty.variances, kInitialStarts);
   } else if (status.state() == TrackerState::kLost || status.misfit()) {
     const Vector6d variances = searchVariances(unseen_s + dt_s);
-    if (status.state() == TrackerState::kLost) result.variances = variances;
-    result.starts = search.around(last_seen_centre, variances, kSearchStarts);
+    if (status.state() == TrackerState::kLost) uncertainty.variances = variances;
+    uncertainty.starts = search.around(last_seen_centre, variances, kSearchStarts);
   } else if (status.visibleFraction() < kSearchBelowVisibleFraction) {
-    result.starts = search.around(last_seen_centre, searchVariances(unseen_s + dt_s), kSearchStarts);
+    uncertainty.starts = search.around(last_seen_centre, searchVariances(unseen_s + dt_s), kSearchStarts);
   }
-  return result;
+  return uncertainty;
 }
 
 void ObjectTracker::Implementation::rememberWhenSeen(const FilterEstimate& estimate, double dt_s) {
