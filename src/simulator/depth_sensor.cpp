@@ -40,6 +40,28 @@ std::vector<float> correlate(const std::vector<float>& white, double stddev_px) 
   return source;
 }
 
+// How a true depth is read off. Local to this file so that the compiler can run it on many pixels at once.
+struct DepthReader {
+  float noise_at_nearest, noise_growth, nearest, steps_metres, min_range, max_range;
+
+  DepthReader(const DepthSensorConfig& config, const PinholeCamera& camera)
+      : noise_at_nearest(static_cast<float>(config.noise_at_nearest_m)),
+        noise_growth(static_cast<float>(config.noise_growth_per_m)),
+        nearest(static_cast<float>(config.noise_nearest_m)),
+        steps_metres(static_cast<float>(camera.fx * config.baseline_m / config.disparity_step_px)),
+        min_range(static_cast<float>(config.min_range_m)), max_range(static_cast<float>(config.max_range_m)) {}
+
+  /// @param noise standard normal. @return [mm], 0 = out of range
+  std::uint16_t read(float depth_m, float noise) const {
+    const float beyond = depth_m - nearest;
+    const float stddev = noise_at_nearest + noise_growth * beyond * beyond;
+    const float steps = static_cast<float>(static_cast<int>(steps_metres / (depth_m + stddev * noise) + 0.5f));
+    const float measured = steps_metres / steps;
+    const float millimetres = measured >= min_range && measured <= max_range ? 1000.0f * measured + 0.5f : 0.0f;
+    return static_cast<std::uint16_t>(static_cast<int>(millimetres));
+  }
+};
+
 }  // namespace
 
 DepthSensor::DepthSensor(const DepthSensorConfig& config, const PinholeCamera& camera, std::uint64_t seed)
@@ -101,26 +123,15 @@ void DepthSensor::jitterEdges(const std::vector<float>& true_depth_m, int tile_r
   }
 }
 
-std::uint16_t DepthSensor::read(float depth_m, float noise) const {
-  const auto nearest = static_cast<float>(config_.noise_nearest_m);
-  const float stddev = static_cast<float>(config_.noise_at_nearest_m) +
-                       static_cast<float>(config_.noise_growth_per_m) * (depth_m - nearest) * (depth_m - nearest);
-  const auto steps_metres = static_cast<float>(camera_.fx * config_.baseline_m / config_.disparity_step_px);
-  const float steps = static_cast<float>(static_cast<int>(steps_metres / (depth_m + stddev * noise) + 0.5f));
-  const float measured = steps_metres / steps;
-  const bool in_range = measured >= static_cast<float>(config_.min_range_m) &&
-                        measured <= static_cast<float>(config_.max_range_m);
-  return in_range ? static_cast<std::uint16_t>(1000.0f * measured + 0.5f) : std::uint16_t{0};
-}
-
 void DepthSensor::readRow(int row, int tile_row, int tile_col, float sign, std::uint16_t* depth_mm) const {
   const float* noise = &noise_tile_[((row + tile_row) & (kTileSize - 1)) * kTileSize];
   const float* seen = &seen_depth_m_[static_cast<std::size_t>(row) * camera_.width];
+  const DepthReader reader(config_, camera_);
   // Two runs, so that the tile's end needs no test per pixel.
   for (int begin = 0; begin < camera_.width;) {
     const int tile_begin = (begin + tile_col) & (kTileSize - 1);
     const int count = std::min(camera_.width - begin, kTileSize - tile_begin);
-    for (int k = 0; k < count; ++k) depth_mm[begin + k] = read(seen[begin + k], sign * noise[tile_begin + k]);
+    for (int k = 0; k < count; ++k) depth_mm[begin + k] = reader.read(seen[begin + k], sign * noise[tile_begin + k]);
     begin += count;
   }
 }
@@ -147,6 +158,7 @@ void DepthSensor::shadowRow(int row, std::uint16_t* depth_mm) {
 
 void DepthSensor::blurEdges(int row, RandomSource& random, std::uint16_t* depth_mm) const {
   if (row == 0 || row + 1 == camera_.height) return;
+  const DepthReader reader(config_, camera_);
   const int width = camera_.width;
   const auto step = static_cast<float>(config_.edge_step_m);
   const float* seen = &seen_depth_m_[static_cast<std::size_t>(row) * width];
@@ -159,7 +171,7 @@ void DepthSensor::blurEdges(int row, RandomSource& random, std::uint16_t* depth_
     if (choice < config_.edge_drop_probability) {
       depth_mm[col] = 0;
     } else if (choice < config_.edge_drop_probability + config_.mixed_probability) {
-      depth_mm[col] = read(nearest + static_cast<float>(random.uniform()) * (farthest - nearest), 0.0f);
+      depth_mm[col] = reader.read(nearest + static_cast<float>(random.uniform()) * (farthest - nearest), 0.0f);
     }
   }
 }

@@ -19,32 +19,30 @@ constexpr std::uint64_t kStream = 103;
 constexpr int kAttempts = 60;
 constexpr int kWantedCandidates = 14;
 
-// Nearest depth per pixel of the object, and how much of it other meshes hide.
+// How much of the object hand and arm hide at one pose.
 class CoverageMeter {
  public:
-  CoverageMeter(const TriangleMesh& object, const GraspRequest& request)
-      : camera_(makeSamplingGrid(request.camera, 4).camera), request_(request), arm_(request.arm) {
-    depth_.assign(static_cast<std::size_t>(camera_.width) * camera_.height, 0.0f);
-    DepthRenderer renderer(object);
-    for (const CoveredPixel& pixel : renderer.render(request.T_camera_object, camera_)) {
+  CoverageMeter(DepthRenderer& object, const Pose& T_camera_object, const PinholeCamera& camera)
+      : camera_(camera), T_camera_object_(T_camera_object) {
+    depth_.assign(static_cast<std::size_t>(camera_.width) * static_cast<std::size_t>(camera_.height), 0.0f);
+    for (const CoveredPixel& pixel : object.render(T_camera_object, camera_)) {
       depth_[pixelIndex(pixel, camera_)] = pixel.depth;
       ++object_pixels_;
     }
   }
 
-  double coverage(const Hand& hand) const {
+  double coverage(const Hand& hand, DepthRenderer& hand_renderer, const Arm& arm,
+                  std::array<DepthRenderer, 2>& link_renderers) const {
     std::vector<bool> hidden(depth_.size(), false);
-    const Pose& T_camera_object = request_.T_camera_object;
-    hide(hand.mesh, T_camera_object, hidden);
-    const auto links = arm_.place(T_camera_object * hand.wrist, T_camera_object.linear() * hand.wrist_out);
-    for (std::size_t k = 0; k < links.size(); ++k) hide(arm_.meshes()[k], links[k], hidden);
+    hide(hand_renderer, T_camera_object_, hidden);
+    const auto links = arm.place(T_camera_object_ * hand.wrist, T_camera_object_.linear() * hand.wrist_out);
+    for (std::size_t k = 0; k < links.size(); ++k) hide(link_renderers[k], links[k], hidden);
     const auto count = std::count(hidden.begin(), hidden.end(), true);
     return object_pixels_ == 0 ? 1.0 : static_cast<double>(count) / object_pixels_;
   }
 
  private:
-  void hide(const TriangleMesh& mesh, const Pose& T_camera_mesh, std::vector<bool>& hidden) const {
-    DepthRenderer renderer(mesh);
+  void hide(DepthRenderer& renderer, const Pose& T_camera_mesh, std::vector<bool>& hidden) const {
     for (const CoveredPixel& pixel : renderer.render(T_camera_mesh, camera_)) {
       const std::size_t index = pixelIndex(pixel, camera_);
       if (depth_[index] > pixel.depth) hidden[index] = true;
@@ -52,15 +50,46 @@ class CoverageMeter {
   }
 
   PinholeCamera camera_;
-  const GraspRequest& request_;
-  Arm arm_;
+  Pose T_camera_object_;
   std::vector<float> depth_;
   int object_pixels_ = 0;
 };
 
+// Over all poses that the object goes through.
+class GraspJudge {
+ public:
+  GraspJudge(const TriangleMesh& object, const GraspRequest& request)
+      : wanted_(request.wanted_coverage), arm_(request.arm),
+        link_renderers_{DepthRenderer(arm_.meshes()[0]), DepthRenderer(arm_.meshes()[1])} {
+    DepthRenderer renderer(object);
+    const PinholeCamera camera = makeSamplingGrid(request.camera, kSampling).camera;
+    for (const Pose& pose : request.T_camera_object) meters_.emplace_back(renderer, pose, camera);
+  }
+
+  // 0 = as wanted.
+  double error(const Hand& hand) {
+    DepthRenderer hand_renderer(hand.mesh);
+    double sum = 0.0, most = 0.0;
+    for (const CoverageMeter& meter : meters_) {
+      const double coverage = meter.coverage(hand, hand_renderer, arm_, link_renderers_);
+      sum += coverage;
+      most = std::max(most, coverage);
+    }
+    return std::abs(sum / static_cast<double>(meters_.size()) - wanted_) + std::max(0.0, most - kMostCoverage);
+  }
+
+ private:
+  static constexpr int kSampling = 4;
+  static constexpr double kMostCoverage = 0.4;
+  double wanted_;
+  Arm arm_;
+  std::array<DepthRenderer, 2> link_renderers_;
+  std::vector<CoverageMeter> meters_;
+};
+
 // A grasp of a random place, approached roughly from where the arm is.
 std::optional<GraspFrame> randomGrasp(const TriangleMesh& object, const GraspRequest& request, RandomSource& random) {
-  const Pose T_object_camera = request.T_camera_object.inverse();
+  const Pose T_object_camera = request.T_camera_object.front().inverse();
   const auto& vertex = object.vertices[random.bits() % object.vertices.size()];
   const Eigen::Vector3d centroid = surfaceCentroid(object);
   const Eigen::Vector3d aim = centroid + random.uniform(0.0, 0.9) * (vertex.cast<double>() - centroid);
@@ -79,7 +108,7 @@ std::optional<GraspFrame> randomGrasp(const TriangleMesh& object, const GraspReq
 }
 
 Hand flatHand(const TriangleMesh& object, const GraspRequest& request) {
-  const Pose T_object_camera = request.T_camera_object.inverse();
+  const Pose T_object_camera = request.T_camera_object.front().inverse();
   const Eigen::Vector3d centroid = surfaceCentroid(object);
   Hand hand;
   hand.wrist_out = (T_object_camera * request.arm.shoulder_camera - centroid).normalized();
@@ -95,7 +124,7 @@ Hand flatHand(const TriangleMesh& object, const GraspRequest& request) {
 
 Hand chooseGrasp(const TriangleMesh& object, const GraspRequest& request) {
   RandomSource random(request.seed, kStream);
-  const CoverageMeter meter(object, request);
+  GraspJudge judge(object, request);
   std::optional<Hand> best;
   double best_error = std::numeric_limits<double>::infinity();
   for (int attempt = 0, candidates = 0; attempt < kAttempts && candidates < kWantedCandidates; ++attempt) {
@@ -104,7 +133,7 @@ Hand chooseGrasp(const TriangleMesh& object, const GraspRequest& request) {
     auto hand = request.kind == HandKind::kHuman ? makeHumanHand(object, *grasp) : makeGripper(object, *grasp);
     if (!hand) continue;
     ++candidates;
-    const double error = std::abs(meter.coverage(*hand) - request.wanted_coverage);
+    const double error = judge.error(*hand);
     if (error >= best_error) continue;
     best_error = error;
     best = std::move(hand);

@@ -11,12 +11,14 @@
 #include "depth_object_tracker/simulator/pixel_index.h"
 #include "depth_object_tracker/simulator/robot_signals.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace depth_object_tracker {
 namespace {
 
 constexpr float kNothingM = 20.0f;  // where no surface is: out of the sensor's range
+constexpr double kGraspWindowS = 20.0;  // over so much of the motion a grasp is judged
 constexpr std::uint64_t kInitialPoseStream = 110;
 constexpr std::uint64_t kPusherSeedOffset = 7777;
 const Eigen::Vector3d kHumanShoulderWorld(0.8, -0.95, 0.3);
@@ -105,7 +107,9 @@ HandAndArm SceneSimulator::Implementation::makeHolder(HandKind kind, std::uint64
   const Pose T_camera_world = makeCameraMount(config_).T_world_camera().inverse();
   GraspRequest request;
   request.kind = kind;
-  request.T_camera_object = motion_.held(0.0);
+  for (const double share : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}) {
+    request.T_camera_object.push_back(motion_.held(share * std::min(config_.duration_s, kGraspWindowS)));
+  }
   request.camera = config_.camera;
   request.seed = seed;
   request.wanted_coverage = kind == HandKind::kHuman ? random.uniform(0.1, 0.25) : random.uniform(0.05, 0.15);

@@ -29,7 +29,6 @@ class DepthSensor {
   void dropGrazing(const std::vector<float>& true_depth_m, int row, RandomSource& random,
                    std::uint16_t* depth_mm) const;
   void dropBlobs(RandomSource& random, std::uint16_t* depth_mm) const;
-  std::uint16_t read(float depth_m, float noise) const;
 
   DepthSensorConfig config_;
   PinholeCamera camera_;

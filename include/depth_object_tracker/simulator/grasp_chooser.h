@@ -7,6 +7,7 @@
 #include "depth_object_tracker/simulator/hand_shapes.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace depth_object_tracker {
 
@@ -14,14 +15,14 @@ enum class HandKind { kHuman, kGripper };
 
 struct GraspRequest {
   HandKind kind = HandKind::kHuman;
-  Pose T_camera_object = Pose::Identity();  ///< as the object is held most of the time
+  std::vector<Pose> T_camera_object;        ///< poses that the object goes through, at least one
   PinholeCamera camera;
   ArmConfig arm;
-  double wanted_coverage = 0.2;             ///< share of the object that hand and arm hide, [0, 1)
+  double wanted_coverage = 0.2;             ///< share of the object that hand and arm hide on average, [0, 1)
   std::uint64_t seed = 1;
 };
 
-/// Tries random grasps and keeps the one whose coverage is nearest to what is wanted. An object that no hand can
+/// Tries random grasps and keeps the one whose coverage is nearest to what is wanted, at no pose far above it. An object that no hand can
 /// hold (too thick everywhere) is touched by a flat hand from the arm's side.
 Hand chooseGrasp(const TriangleMesh& object, const GraspRequest& request);
 
