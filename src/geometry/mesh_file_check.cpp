@@ -36,7 +36,8 @@ std::string findPlyProblem(const std::string& line, double& num_elements) {
   std::string keyword, name;
   if (!(words >> keyword) || kKeywords.count(keyword) == 0) return "its header has the line '" + line + "'";
   double count = 0.0;
-  if (keyword == "element" && !(words >> name >> count && count >= 0.0)) return "its header has the line '" + line + "'";
+  if (keyword == "element" && !(words >> name >> count && count >= 0.0))
+    return "its header has the line '" + line + "'";
   num_elements += count;
   return "";
 }
@@ -53,10 +54,11 @@ void checkPlyHeader(const fs::path& path, std::uintmax_t num_bytes) {
     if (i == 0 && line != "ply") throw MeshError(name + "it does not begin with the line 'ply'.");
     if (line == "end_header") {
       // An element takes at least one byte.
-      const double num_data_bytes = file.eof() ? 0.0 : static_cast<double>(num_bytes) - static_cast<double>(file.tellg());
+      const double num_data_bytes =
+          file.eof() ? 0.0 : static_cast<double>(num_bytes) - static_cast<double>(file.tellg());
       if (num_elements > 0.0 && num_elements <= num_data_bytes) return;
-      throw MeshError(name + "its header promises " + formatCount(num_elements) + " elements, " + formatCount(num_data_bytes) +
-                      " bytes follow.");
+      throw MeshError(name + "its header promises " + formatCount(num_elements) + " elements, " +
+                      formatCount(num_data_bytes) + " bytes follow.");
     }
     const std::string problem = findPlyProblem(line, num_elements);
     if (!problem.empty()) throw MeshError(name + problem + ".");
@@ -64,7 +66,8 @@ void checkPlyHeader(const fs::path& path, std::uintmax_t num_bytes) {
   throw MeshError(name + "its header has no line 'end_header'.");
 }
 
-/// Calls `check(attributes, text)` for every element of that name: what stands in its tag, and its text up to the next tag.
+/// Calls `check(attributes, text)` for every element of that name: what stands in its tag, and its text up to the next
+/// tag.
 template <typename Check>
 void forEachElement(const std::string& xml, const std::string& element, const Check& check) {
   const std::string opening = "<" + element;
@@ -72,13 +75,15 @@ void forEachElement(const std::string& xml, const std::string& element, const Ch
     const std::size_t attributes = begin + opening.size();
     const std::size_t end = xml.find('>', attributes);
     if (end == std::string::npos) return;
-    if (xml[attributes] != '>' && std::isspace(static_cast<unsigned char>(xml[attributes])) == 0) continue;  // a longer name
+    if (xml[attributes] != '>' && std::isspace(static_cast<unsigned char>(xml[attributes])) == 0)
+      continue;  // a longer name
     const std::size_t text_end = std::min(xml.find('<', end), xml.size());
     check(xml.substr(attributes, end - attributes), xml.substr(end + 1, text_end - end - 1));
   }
 }
 
-/// assimp's Collada reader does not return from index lists that hold anything but integers, and crashes on arrays without count.
+/// assimp's Collada reader does not return from index lists that hold anything but integers, and crashes on arrays
+/// without count.
 void checkDaeText(const fs::path& path) {
   const std::string name = "mesh " + path.string() + ": cannot be read as .dae: ";
   std::ifstream file(path, std::ios::binary);
@@ -87,19 +92,22 @@ void checkDaeText(const fs::path& path) {
     forEachElement(xml, element, [&](const std::string&, const std::string& text) {
       const std::size_t position = text.find_first_not_of("0123456789 \t\r\n");
       if (position == std::string::npos) return;
-      throw MeshError(name + "an index list <" + element + "> holds '" + text.substr(position, 8) + "' where an integer was expected.");
+      throw MeshError(name + "an index list <" + element + "> holds '" + text.substr(position, 8) +
+                      "' where an integer was expected.");
     });
   }
   for (const char* element : {"float_array", "Name_array", "IDREF_array"}) {
     forEachElement(xml, element, [&](const std::string& attributes, const std::string&) {
-      if (attributes.find("count=") == std::string::npos) throw MeshError(name + "an element <" + element + "> has no count.");
+      if (attributes.find("count=") == std::string::npos)
+        throw MeshError(name + "an element <" + element + "> has no count.");
     });
   }
   for (const char* attribute : {" count=\"", " stride=\"", " offset=\""}) {
     for (std::size_t i = xml.find(attribute); i != std::string::npos; i = xml.find(attribute, i + 1)) {
       const std::size_t begin = i + std::strlen(attribute);
       const std::string value = xml.substr(begin, std::min(xml.find('"', begin), xml.size()) - begin);
-      const bool is_count = !value.empty() && value.size() <= 9 && value.find_first_not_of("0123456789") == std::string::npos;
+      const bool is_count =
+          !value.empty() && value.size() <= 9 && value.find_first_not_of("0123456789") == std::string::npos;
       if (!is_count) throw MeshError(name + "the attribute" + attribute + value.substr(0, 20) + "\" is not a count.");
     }
   }

@@ -58,8 +58,8 @@ class FiniteFile : public Assimp::DefaultIOStream {
   int num_empty_reads_ = 0;
 };
 
-/// assimp may open the mesh file and nothing else: materials and textures are of no use here, and a hostile file could name a
-/// device or a pipe.
+/// assimp may open the mesh file and nothing else: materials and textures are of no use here, and a hostile file could
+/// name a device or a pipe.
 class SingleFileSystem : public Assimp::DefaultIOSystem {
  public:
   explicit SingleFileSystem(std::string path) : path_(std::move(path)) {}
@@ -141,7 +141,8 @@ class TriangleCollector {
       }
       addPolygon();
       if (mesh_.triangles.size() > kMaxTriangles) {
-        throw std::runtime_error("it has more than " + std::to_string(kMaxTriangles) + " triangles; simplify the mesh first");
+        throw std::runtime_error("it has more than " + std::to_string(kMaxTriangles) +
+                                 " triangles; simplify the mesh first");
       }
     }
   }
@@ -155,7 +156,8 @@ class TriangleCollector {
       mesh_.triangles.push_back({indices[0], indices[1], indices[2]});
       return;
     }
-    for (const auto& [a, b, c] : triangulatePolygon(polygon_)) mesh_.triangles.push_back({indices[a], indices[b], indices[c]});
+    for (const auto& [a, b, c] : triangulatePolygon(polygon_))
+      mesh_.triangles.push_back({indices[a], indices[b], indices[c]});
   }
 
   std::uint32_t vertexIndex(const Eigen::Vector3f& p_object) {
@@ -210,7 +212,8 @@ bool isPlausibleDiameter(double diameter_m) {
 
 /// A guess at what went wrong with the unit, from the mesh's diameter in the file's own numbers.
 std::string proposeScale(double file_diameter) {
-  constexpr std::array<std::pair<double, const char*>, 3> kUnits = {{{1.0, "metres"}, {0.001, "millimetres"}, {0.01, "centimetres"}}};
+  constexpr std::array<std::pair<double, const char*>, 3> kUnits = {
+      {{1.0, "metres"}, {0.001, "millimetres"}, {0.01, "centimetres"}}};
   for (const auto& [scale, unit] : kUnits) {
     if (isPlausibleDiameter(file_diameter * scale)) {
       return " The file is probably in " + std::string(unit) + ": try mesh_scale " + formatNumber(scale) + ".";
@@ -224,8 +227,8 @@ void checkDiameter(const TriangleMesh& mesh, const fs::path& path, double scale)
   if (isPlausibleDiameter(diameter_m)) return;
   throw MeshError("mesh " + path.string() + ": diameter is " + formatNumber(diameter_m) + " m, which is outside of [" +
                   formatNumber(kMinMeshDiameterM) + ", " + formatNumber(kMaxMeshDiameterM) + "] m; " +
-                  std::to_string(mesh.triangles.size()) + " triangles were read with mesh_scale " + formatNumber(scale) +
-                  "." + proposeScale(diameter_m / scale));
+                  std::to_string(mesh.triangles.size()) + " triangles were read with mesh_scale " +
+                  formatNumber(scale) + "." + proposeScale(diameter_m / scale));
 }
 
 }  // namespace
@@ -233,7 +236,8 @@ void checkDiameter(const TriangleMesh& mesh, const fs::path& path, double scale)
 TriangleMesh loadMesh(const std::string& uri, double scale, const PackageResolver& resolve_package) {
   const fs::path path = resolveMeshUri(uri, resolve_package);
   if (!std::isfinite(scale) || scale <= 0.0) {
-    throw MeshError("mesh " + path.string() + ": mesh_scale is " + formatNumber(scale) + "; it must be finite and > 0.");
+    throw MeshError("mesh " + path.string() + ": mesh_scale is " + formatNumber(scale) +
+                    "; it must be finite and > 0.");
   }
   checkMeshFile(path);
   TriangleMesh mesh = readTrianglesOrExplain(path, scale);
@@ -241,7 +245,8 @@ TriangleMesh loadMesh(const std::string& uri, double scale, const PackageResolve
   if (num_read == 0) throw MeshError("mesh " + path.string() + ": the file has no faces.");
   removeDegenerateTriangles(mesh);
   if (mesh.triangles.empty()) {
-    throw MeshError("mesh " + path.string() + ": all " + std::to_string(num_read) + " triangles are degenerate (no area).");
+    throw MeshError("mesh " + path.string() + ": all " + std::to_string(num_read) +
+                    " triangles are degenerate (no area).");
   }
   checkDiameter(mesh, path, scale);
   return mesh;

@@ -14,8 +14,8 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Union-find over triangles. Parts that merely touch (in a corner, or in an edge of more than two triangles) stay apart: each
-/// may have a winding of its own.
+/// Union-find over triangles. Parts that merely touch (in a corner, or in an edge of more than two triangles) stay
+/// apart: each may have a winding of its own.
 class Components {
  public:
   explicit Components(const std::vector<Triangle>& triangles) : parent_(triangles.size()) {
@@ -46,7 +46,8 @@ class Components {
   std::vector<std::uint32_t> parent_;
 };
 
-/// In every component each directed edge as often as its reverse: it has no border, so a line enters as often as it leaves.
+/// In every component each directed edge as often as its reverse: it has no border, so a line enters as often as it
+/// leaves.
 bool areClosedAndConsistent(const std::vector<Triangle>& triangles, Components& components) {
   std::vector<std::array<std::uint32_t, 3>> edges, reversed;  // component, from, to
   edges.reserve(3 * triangles.size());

@@ -8,13 +8,16 @@
 namespace depth_object_tracker {
 namespace {
 
-bool startsWith(const std::string& text, const std::string& prefix) { return text.compare(0, prefix.size(), prefix) == 0; }
+bool startsWith(const std::string& text, const std::string& prefix) {
+  return text.compare(0, prefix.size(), prefix) == 0;
+}
 
 /// `%20` -> space, as file URIs demand; anything that is no escape stays as it is.
 std::string decodePercent(const std::string& text) {
   std::string decoded;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool is_escape = text[i] == '%' && i + 2 < text.size() && std::isxdigit(static_cast<unsigned char>(text[i + 1])) &&
+    const bool is_escape = text[i] == '%' && i + 2 < text.size() &&
+                           std::isxdigit(static_cast<unsigned char>(text[i + 1])) &&
                            std::isxdigit(static_cast<unsigned char>(text[i + 2]));
     decoded += is_escape ? static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16)) : text[i];
     if (is_escape) i += 2;
@@ -34,7 +37,8 @@ std::string resolvePackageUri(const std::string& uri, const PackageResolver& res
   }
   const std::string folder = resolve_package(package);
   if (folder.empty()) {
-    throw MeshError("mesh " + uri + ": package '" + package + "' was not found; is its workspace sourced (ROS_PACKAGE_PATH)?");
+    throw MeshError("mesh " + uri + ": package '" + package +
+                    "' was not found; is its workspace sourced (ROS_PACKAGE_PATH)?");
   }
   return folder + rest.substr(slash);
 }

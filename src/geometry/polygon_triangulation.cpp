@@ -21,7 +21,8 @@ std::vector<Eigen::Vector2d> flatten(const std::vector<Eigen::Vector3d>& corners
   const Eigen::Vector3d u = normal.norm() > 0.0 ? normal.unitOrthogonal() : Eigen::Vector3d::UnitX();
   const Eigen::Vector3d v = normal.norm() > 0.0 ? normal.cross(u) : Eigen::Vector3d::UnitY();
   std::vector<Eigen::Vector2d> flat;
-  for (const Eigen::Vector3d& corner : corners) flat.emplace_back(u.dot(corner - corners[0]), v.dot(corner - corners[0]));
+  for (const Eigen::Vector3d& corner : corners)
+    flat.emplace_back(u.dot(corner - corners[0]), v.dot(corner - corners[0]));
   return flat;
 }
 
@@ -29,7 +30,8 @@ double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vec
   return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
 }
 
-/// True when the corner at `position` of the loop is convex and no other corner lies in the triangle that it would cut off.
+/// True when the corner at `position` of the loop is convex and no other corner lies in the triangle that it would cut
+/// off.
 bool isEar(const Loop& loop, std::size_t position, const std::vector<Eigen::Vector2d>& flat) {
   const Eigen::Vector2d& a = flat[loop[(position + loop.size() - 1) % loop.size()]];
   const Eigen::Vector2d& b = flat[loop[position]];
@@ -53,11 +55,13 @@ std::vector<std::array<std::size_t, 3>> triangulatePolygon(const std::vector<Eig
   std::iota(loop.begin(), loop.end(), std::size_t{0});
   std::size_t position = 1;
   while (loop.size() > 3) {
-    // Going on behind the last ear spreads the cuts instead of making a fan. Without any ear (a crossing or flat loop) cut anyway.
+    // Going on behind the last ear spreads the cuts instead of making a fan. Without any ear (a crossing or flat loop)
+    // cut anyway.
     std::size_t tries = 0;
     while (tries < loop.size() && !isEar(loop, position % loop.size(), flat)) ++position, ++tries;
     position %= loop.size();
-    triangles.push_back({loop[(position + loop.size() - 1) % loop.size()], loop[position], loop[(position + 1) % loop.size()]});
+    triangles.push_back(
+        {loop[(position + loop.size() - 1) % loop.size()], loop[position], loop[(position + 1) % loop.size()]});
     loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(position));
     ++position;
   }

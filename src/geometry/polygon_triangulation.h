@@ -13,8 +13,8 @@ namespace depth_object_tracker {
 /// Larger polygons are refused: cutting takes up to the cube of the number of corners.
 constexpr std::size_t kMaxPolygonCorners = 1000;
 
-/// Triangles of a flat or nearly flat polygon as positions in `corners`; concave ones are cut correctly, self-crossing ones
-/// somehow. Corners must be finite. Fewer than three corners give none.
+/// Triangles of a flat or nearly flat polygon as positions in `corners`; concave ones are cut correctly, self-crossing
+/// ones somehow. Corners must be finite. Fewer than three corners give none.
 std::vector<std::array<std::size_t, 3>> triangulatePolygon(const std::vector<Eigen::Vector3d>& corners);
 
 }  // namespace depth_object_tracker

@@ -7,7 +7,8 @@
 namespace depth_object_tracker {
 namespace {
 
-/// Poses count as different only beyond this, so that ties go to the pose as it is: |cos| of the half angle between them.
+/// Poses count as different only beyond this, so that ties go to the pose as it is: |cos| of the half angle between
+/// them.
 constexpr double kTieTolerance = 1e-9;
 
 Pose rotationAboutPoint(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& point) {
@@ -22,7 +23,9 @@ double alignment(const Pose& a, const Pose& b) {
   return std::abs(Eigen::Quaterniond(a.linear()).normalized().dot(Eigen::Quaterniond(b.linear()).normalized()));
 }
 
-bool areParallel(const SymmetryAxis& a, const SymmetryAxis& b) { return a.axis.cross(b.axis).norm() < 1e-6; }
+bool areParallel(const SymmetryAxis& a, const SymmetryAxis& b) {
+  return a.axis.cross(b.axis).norm() < 1e-6;
+}
 
 /// The point where two axes meet (the middle of the shortest connection when they miss each other).
 Eigen::Vector3d commonPoint(const SymmetryAxis& a, const SymmetryAxis& b) {
@@ -33,8 +36,8 @@ Eigen::Vector3d commonPoint(const SymmetryAxis& a, const SymmetryAxis& b) {
   return 0.5 * (a.offset + along_a * a.axis + b.offset + along_b * b.axis);
 }
 
-/// Turns about the axis until the rotation is as near as possible to the reference. With q = R_ref^T R as a quaternion, the
-/// real part after turning by t is w cos(t/2) - (v . axis) sin(t/2), which is largest at t/2 = atan2(-v . axis, w).
+/// Turns about the axis until the rotation is as near as possible to the reference. With q = R_ref^T R as a quaternion,
+/// the real part after turning by t is w cos(t/2) - (v . axis) sin(t/2), which is largest at t/2 = atan2(-v . axis, w).
 Pose spinOntoReference(const Pose& pose, const Pose& reference, const SymmetryAxis& symmetry) {
   const Eigen::Quaterniond between(Eigen::Matrix3d(reference.linear().transpose() * pose.linear()));
   const double angle = 2.0 * std::atan2(-between.vec().dot(symmetry.axis), between.w());
@@ -54,7 +57,8 @@ Pose foldContinuous(const Pose& pose, const Pose& reference, const std::vector<S
 
 }  // namespace
 
-Pose foldOntoReference(const Pose& T_camera_object, const Pose& T_camera_object_reference, const Symmetries& symmetries) {
+Pose foldOntoReference(const Pose& T_camera_object, const Pose& T_camera_object_reference,
+                       const Symmetries& symmetries) {
   if (symmetries.empty()) return T_camera_object;
   Pose best = foldContinuous(T_camera_object, T_camera_object_reference, symmetries.continuous);
   double best_alignment = alignment(best, T_camera_object_reference);

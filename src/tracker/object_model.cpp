@@ -88,7 +88,8 @@ SymmetryAxis readAxis(const YAML::Node& node, double mesh_scale, const Place& pl
 Pose readTransform(const YAML::Node& node, double mesh_scale, const Place& place) {
   const auto numbers = readNumbers<16>(node, place);
   const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
-  if (!matrix.row(3).isApprox(Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))) place.fail("must end with the row 0 0 0 1 (row-major)");
+  if (!matrix.row(3).isApprox(Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)))
+    place.fail("must end with the row 0 0 0 1 (row-major)");
   const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
   const Eigen::Matrix3d gram = rotation * rotation.transpose();
   if ((gram - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > kRotationTolerance) {
@@ -119,7 +120,9 @@ Symmetries readSymmetries(const YAML::Node& node, double mesh_scale, const Place
 
 /// The name becomes a tf frame and part of file names.
 void checkName(const std::string& name, const Place& place) {
-  const auto is_odd = [](unsigned char letter) { return std::isalnum(letter) == 0 && letter != '_' && letter != '-' && letter != '.'; };
+  const auto is_odd = [](unsigned char letter) {
+    return std::isalnum(letter) == 0 && letter != '_' && letter != '-' && letter != '.';
+  };
   if (std::any_of(name.begin(), name.end(), is_odd)) {
     place.fail("is '" + name + "'; it names a tf frame: use letters, digits, '_', '-' and '.' only");
   }

@@ -26,13 +26,16 @@ std::string formatNumber(double value) {
   return {};
 }
 
-std::string formatRange(double min, double max) { return "[" + formatNumber(min) + ", " + formatNumber(max) + "]"; }
+std::string formatRange(double min, double max) {
+  return "[" + formatNumber(min) + ", " + formatNumber(max) + "]";
+}
 
 /// YAML 1.1 readers, rosparam's among them, take `1e-3` (no point) for text; what reads as a number whole is one.
 bool parseNumber(const std::string& text, double& number) {
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());
-  return static_cast<bool>(stream >> std::noskipws >> number) && stream.peek() == std::istringstream::traits_type::eof();
+  return static_cast<bool>(stream >> std::noskipws >> number) &&
+         stream.peek() == std::istringstream::traits_type::eof();
 }
 
 double toDouble(const std::string& name, const ParameterValue& value, double min, double max) {
@@ -86,21 +89,23 @@ void throwOutOfRange(const std::string& name, const ParameterValue& value, const
   throw std::invalid_argument("parameter `" + name + "` is " + shown + "; it must be " + expected);
 }
 
-ParameterBinding bindNumber(const char* name, FieldAccess<double> field, double min, double max, const char* description) {
-  return makeBinding(name, formatRange(min, max), description, getter<double>(field),
-                     [=](TrackerConfig& config, const ParameterValue& value) {
-                       field(config) = toDouble(name, value, min, max);
-                     });
+ParameterBinding bindNumber(const char* name, FieldAccess<double> field, double min, double max,
+                            const char* description) {
+  return makeBinding(
+      name, formatRange(min, max), description, getter<double>(field),
+      [=](TrackerConfig& config, const ParameterValue& value) { field(config) = toDouble(name, value, min, max); });
 }
 
 ParameterBinding bindNumber(const char* name, FieldAccess<int> field, int min, int max, const char* description) {
   const std::string range = "[" + std::to_string(min) + ", " + std::to_string(max) + "]";
-  return makeBinding(name, range, description, getter<int>(field), [=](TrackerConfig& config, const ParameterValue& value) {
-    field(config) = toInt(name, value, min, max, "an integer in " + range);
-  });
+  return makeBinding(name, range, description, getter<int>(field),
+                     [=](TrackerConfig& config, const ParameterValue& value) {
+                       field(config) = toInt(name, value, min, max, "an integer in " + range);
+                     });
 }
 
-ParameterBinding bindNumber(const char* name, FieldAccess<std::uint64_t> field, int min, int max, const char* description) {
+ParameterBinding bindNumber(const char* name, FieldAccess<std::uint64_t> field, int min, int max,
+                            const char* description) {
   const std::string range = "[" + std::to_string(min) + ", " + std::to_string(max) + "]";
   const auto get = [=](const TrackerConfig& config) -> ParameterValue {
     TrackerConfig copy = config;
@@ -119,14 +124,15 @@ ParameterBinding bindSwitch(const char* name, FieldAccess<bool> field, const cha
                      });
 }
 
-ParameterBinding bindNumberOrWord(const char* name, FieldAccess<int> field, int min, int max, const char* word, int word_value,
-                                  const char* description) {
+ParameterBinding bindNumberOrWord(const char* name, FieldAccess<int> field, int min, int max, const char* word,
+                                  int word_value, const char* description) {
   const std::string range = "[" + std::to_string(min) + ", " + std::to_string(max) + "] | " + word;
-  return makeBinding(name, range, description, getter<int>(field), [=](TrackerConfig& config, const ParameterValue& value) {
-    const std::string* text = std::get_if<std::string>(&value);
-    const bool is_word = text != nullptr && *text == word;
-    field(config) = is_word ? word_value : toInt(name, value, min, max, "an integer in " + range);
-  });
+  return makeBinding(name, range, description, getter<int>(field),
+                     [=](TrackerConfig& config, const ParameterValue& value) {
+                       const std::string* text = std::get_if<std::string>(&value);
+                       const bool is_word = text != nullptr && *text == word;
+                       field(config) = is_word ? word_value : toInt(name, value, min, max, "an integer in " + range);
+                     });
 }
 
 }  // namespace depth_object_tracker

@@ -28,19 +28,21 @@ std::string formatParameterValue(const ParameterValue& value);
 /// "parameter `num_particles` is 0; it must be an integer in [1, 100000]".
 [[noreturn]] void throwOutOfRange(const std::string& name, const ParameterValue& value, const std::string& expected);
 
-ParameterBinding bindNumber(const char* name, FieldAccess<double> field, double min, double max, const char* description);
+ParameterBinding bindNumber(const char* name, FieldAccess<double> field, double min, double max,
+                            const char* description);
 ParameterBinding bindNumber(const char* name, FieldAccess<int> field, int min, int max, const char* description);
-ParameterBinding bindNumber(const char* name, FieldAccess<std::uint64_t> field, int min, int max, const char* description);
+ParameterBinding bindNumber(const char* name, FieldAccess<std::uint64_t> field, int min, int max,
+                            const char* description);
 ParameterBinding bindSwitch(const char* name, FieldAccess<bool> field, const char* description);
 
 /// An integer that may also be given as a word, which stands for `word_value`.
-ParameterBinding bindNumberOrWord(const char* name, FieldAccess<int> field, int min, int max, const char* word, int word_value,
-                                  const char* description);
+ParameterBinding bindNumberOrWord(const char* name, FieldAccess<int> field, int min, int max, const char* word,
+                                  int word_value, const char* description);
 
 /// An enumeration, written as one of a few words.
 template <typename Enum>
-ParameterBinding bindChoice(const char* name, FieldAccess<Enum> field, std::vector<std::pair<const char*, Enum>> choices,
-                            const char* description) {
+ParameterBinding bindChoice(const char* name, FieldAccess<Enum> field,
+                            std::vector<std::pair<const char*, Enum>> choices, const char* description) {
   std::string range;
   for (const auto& choice : choices) range += (range.empty() ? "" : " | ") + std::string(choice.first);
   ParameterBinding binding;

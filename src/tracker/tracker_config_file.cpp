@@ -31,7 +31,8 @@ ParameterValue parseScalar(const YAML::Node& node) {
   if (text == "true" || text == "false") return text == "true";
   int integer = 0;
   if (parseInteger(text, integer)) return integer;
-  const bool looks_numeric = text.find_first_not_of("+-.0123456789eE") == std::string::npos || text.back() == 'f' || text.back() == 'N';
+  const bool looks_numeric =
+      text.find_first_not_of("+-.0123456789eE") == std::string::npos || text.back() == 'f' || text.back() == 'N';
   double real = 0.0;
   if (looks_numeric && YAML::convert<double>::decode(node, real)) return real;
   return text;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The renderer against brute force: depth to 1e-6, the same coverage, no holes; whole, cut, near, far and hidden objects.
+// The renderer against brute force: depth to 1e-6, the same coverage, no holes; whole, cut, near, far and hidden
+// objects.
 #include "depth_object_tracker/render/depth_renderer.h"
 
 #include "depth_object_tracker/geometry/mesh_loader.h"
@@ -29,7 +30,9 @@ struct Comparison {
 /// Renders and compares every pixel of the image; failures name the pixel.
 Comparison compare(DepthRenderer& renderer, const TriangleMesh& mesh, const Pose& pose, const PinholeCamera& camera) {
   std::vector<const CoveredPixel*> image(static_cast<std::size_t>(camera.width * camera.height), nullptr);
-  const auto at = [&](int row, int col) -> const CoveredPixel*& { return image[static_cast<std::size_t>(row * camera.width + col)]; };
+  const auto at = [&](int row, int col) -> const CoveredPixel*& {
+    return image[static_cast<std::size_t>(row * camera.width + col)];
+  };
   int previous = -1;
   for (const CoveredPixel& pixel : renderer.render(pose, camera)) {
     EXPECT_TRUE(pixel.row >= 0 && pixel.row < camera.height && pixel.col >= 0 && pixel.col < camera.width);
@@ -46,12 +49,14 @@ Comparison compare(DepthRenderer& renderer, const TriangleMesh& mesh, const Pose
       const CoveredPixel* pixel = at(row, col);
       if (hit.is_uncertain) {
         ++result.num_uncertain;
-        const bool is_inside = row > 0 && col > 0 && row + 1 < camera.height && col + 1 < camera.width && is_covered(row - 1, col) &&
-                               is_covered(row + 1, col) && is_covered(row, col - 1) && is_covered(row, col + 1);
+        const bool is_inside = row > 0 && col > 0 && row + 1 < camera.height && col + 1 < camera.width &&
+                               is_covered(row - 1, col) && is_covered(row + 1, col) && is_covered(row, col - 1) &&
+                               is_covered(row, col + 1);
         if (pixel == nullptr && is_inside) ++result.num_holes;
         continue;
       }
-      EXPECT_EQ(pixel != nullptr, std::isfinite(hit.depth)) << "row " << row << " col " << col << " depth " << hit.depth;
+      EXPECT_EQ(pixel != nullptr, std::isfinite(hit.depth))
+          << "row " << row << " col " << col << " depth " << hit.depth;
       if (pixel == nullptr || !std::isfinite(hit.depth)) continue;
       ++result.num_certain_hits;
       if (std::isfinite(hit.second_depth)) ++result.num_self_occluded;
@@ -75,7 +80,8 @@ void add(Comparison& sum, const Comparison& part) {
 
 class RendererOracle : public testing::TestWithParam<const char*> {
  protected:
-  RendererOracle() : mesh_(loadMesh(std::string(PROJECT_SOURCE_FOLDER "/meshes/") + GetParam() + ".obj")), renderer_(mesh_) {}
+  RendererOracle()
+      : mesh_(loadMesh(std::string(PROJECT_SOURCE_FOLDER "/meshes/") + GetParam() + ".obj")), renderer_(mesh_) {}
 
   /// A turned object whose surface centroid lies on the beam of a pixel.
   Pose poseAt(double u, double v, double depth_m) {
@@ -92,8 +98,9 @@ class RendererOracle : public testing::TestWithParam<const char*> {
     EXPECT_EQ(sum.num_holes, 0);
     RecordProperty("certain_hits", sum.num_certain_hits);
     RecordProperty("uncertain", sum.num_uncertain);
-    std::cout << GetParam() << ": " << sum.num_certain_hits << " pixels hit, " << sum.num_self_occluded << " with surface behind, "
-              << sum.num_uncertain << " too close to an edge to call, largest relative error " << sum.largest_error << "\n";
+    std::cout << GetParam() << ": " << sum.num_certain_hits << " pixels hit, " << sum.num_self_occluded
+              << " with surface behind, " << sum.num_uncertain
+              << " too close to an edge to call, largest relative error " << sum.largest_error << "\n";
   }
 
   TriangleMesh mesh_;
@@ -103,7 +110,8 @@ class RendererOracle : public testing::TestWithParam<const char*> {
 
 TEST_P(RendererOracle, RandomPosesInFullView) {
   Comparison sum;
-  for (int i = 0; i < 30; ++i) add(sum, compare(renderer_, mesh_, poseAt(uniform(25, 55), uniform(20, 40), uniform(0.35, 0.9)), kCamera));
+  for (int i = 0; i < 30; ++i)
+    add(sum, compare(renderer_, mesh_, poseAt(uniform(25, 55), uniform(20, 40), uniform(0.35, 0.9)), kCamera));
   EXPECT_GT(sum.num_certain_hits, 3000);
   EXPECT_GT(sum.num_self_occluded, sum.num_certain_hits / 2) << "closed objects have a back";
   expectGood(sum);
@@ -112,7 +120,14 @@ TEST_P(RendererOracle, RandomPosesInFullView) {
 TEST_P(RendererOracle, CutByEveryImageBorder) {
   Comparison sum;
   const double right = kCamera.width - 1.0, bottom = kCamera.height - 1.0;
-  for (const auto& [u, v] : {std::pair{0.0, 30.0}, {right, 30.0}, {40.0, 0.0}, {40.0, bottom}, {0.0, 0.0}, {right, bottom}, {0.0, bottom}, {right, 0.0}}) {
+  for (const auto& [u, v] : {std::pair{0.0, 30.0},
+                             {right, 30.0},
+                             {40.0, 0.0},
+                             {40.0, bottom},
+                             {0.0, 0.0},
+                             {right, bottom},
+                             {0.0, bottom},
+                             {right, 0.0}}) {
     const Comparison part = compare(renderer_, mesh_, poseAt(u, v, 0.3), kCamera);
     EXPECT_GT(part.num_certain_hits, 20) << u << "," << v;
     add(sum, part);
@@ -126,7 +141,8 @@ TEST_P(RendererOracle, LargerThanTheImage) {
   camera.fx *= 15.0;
   camera.fy *= 15.0;
   Comparison sum;
-  for (int i = 0; i < 6; ++i) add(sum, compare(renderer_, mesh_, poseAt(kCamera.cx, kCamera.cy, uniform(0.3, 0.5)), camera));
+  for (int i = 0; i < 6; ++i)
+    add(sum, compare(renderer_, mesh_, poseAt(kCamera.cx, kCamera.cy, uniform(0.3, 0.5)), camera));
   EXPECT_GT(sum.num_certain_hits, 6 * 80 * 60 / 4);
   expectGood(sum);
 }
@@ -160,7 +176,8 @@ TEST_P(RendererOracle, BehindTheCameraOrBesideTheImageThereIsNothing) {
 
 TEST_P(RendererOracle, FarObjectsOfAboutOnePixel) {
   Comparison sum;
-  for (int i = 0; i < 30; ++i) add(sum, compare(renderer_, mesh_, poseAt(uniform(5, 75), uniform(5, 55), uniform(5.0, 15.0)), kCamera));
+  for (int i = 0; i < 30; ++i)
+    add(sum, compare(renderer_, mesh_, poseAt(uniform(5, 75), uniform(5, 55), uniform(5.0, 15.0)), kCamera));
   EXPECT_GT(sum.num_certain_hits, 5);
   expectGood(sum);
 }
@@ -198,13 +215,16 @@ TEST_P(RendererOracle, WindingDoesNotMatter) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Meshes, RendererOracle, testing::Values("box", "mug", "bracket"), 
+INSTANTIATE_TEST_SUITE_P(Meshes, RendererOracle, testing::Values("box", "mug", "bracket"),
                          [](const auto& test) { return std::string(test.param); });
 
-TEST(Renderer, EmptyMeshCoversNothing) { EXPECT_TRUE(DepthRenderer(TriangleMesh()).render(Pose::Identity(), kCamera).empty()); }
+TEST(Renderer, EmptyMeshCoversNothing) {
+  EXPECT_TRUE(DepthRenderer(TriangleMesh()).render(Pose::Identity(), kCamera).empty());
+}
 
 TEST(Renderer, OpenSurfacesAreSeenFromBothSides) {
-  const TriangleMesh plate{{{-0.1f, -0.1f, 0}, {0.1f, -0.1f, 0}, {0.1f, 0.1f, 0}, {-0.1f, 0.1f, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+  const TriangleMesh plate{{{-0.1f, -0.1f, 0}, {0.1f, -0.1f, 0}, {0.1f, 0.1f, 0}, {-0.1f, 0.1f, 0}},
+                           {{0, 1, 2}, {0, 2, 3}}};
   DepthRenderer renderer(plate);
   Pose pose = Pose::Identity();
   pose.translation().z() = 0.5;
@@ -216,7 +236,8 @@ TEST(Renderer, OpenSurfacesAreSeenFromBothSides) {
   }
 }
 
-/// Many triangles with all corners and edges exactly on pixel centres: each centre belongs to one of them, none to nobody.
+/// Many triangles with all corners and edges exactly on pixel centres: each centre belongs to one of them, none to
+/// nobody.
 TEST(Renderer, SharedEdgesOnPixelCentresLeaveNoHole) {
   const PinholeCamera camera{64, 48, 64.0, 64.0, 32.0, 24.0};
   for (const int step : {1, 2, 3, 5}) {
@@ -225,7 +246,8 @@ TEST(Renderer, SharedEdgesOnPixelCentresLeaveNoHole) {
       constexpr int kCells = 6;
       for (int row = 0; row <= kCells; ++row) {
         for (int col = 0; col <= kCells; ++col) {
-          mesh.vertices.emplace_back(static_cast<float>(step * col - 10) / 64.0f, static_cast<float>(step * row - 8) / 64.0f, 1.0f);
+          mesh.vertices.emplace_back(static_cast<float>(step * col - 10) / 64.0f,
+                                     static_cast<float>(step * row - 8) / 64.0f, 1.0f);
         }
       }
       for (std::uint32_t row = 0; row < kCells; ++row) {
@@ -247,7 +269,8 @@ TEST(Renderer, SharedEdgesOnPixelCentresLeaveNoHole) {
       // A border belongs to one side by rule, so the square has one row and one column less than it has centres.
       EXPECT_EQ(covered.size(), static_cast<std::size_t>(step * kCells * step * kCells)) << step;
       for (int row = 1; row < step * kCells; ++row) {
-        for (int col = 1; col < step * kCells; ++col) EXPECT_EQ(covered.count({16 + row, 22 + col}), 1u) << row << "," << col;
+        for (int col = 1; col < step * kCells; ++col)
+          EXPECT_EQ(covered.count({16 + row, 22 + col}), 1u) << row << "," << col;
       }
     }
   }
@@ -303,9 +326,12 @@ TEST(Renderer, TouchingPartsOfOppositeWinding) {
         mesh.vertices.push_back(p);
       }
     }
-    constexpr std::array<std::array<int, 4>, 6> kFaces = {{{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+    constexpr std::array<std::array<int, 4>, 6> kFaces = {
+        {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
     for (const auto& f : kFaces) {
-      const auto c = [&](int k) { return corner[static_cast<std::size_t>(f[static_cast<std::size_t>(inward ? 3 - k : k)])]; };
+      const auto c = [&](int k) {
+        return corner[static_cast<std::size_t>(f[static_cast<std::size_t>(inward ? 3 - k : k)])];
+      };
       mesh.triangles.push_back({c(0), c(1), c(2)});
       mesh.triangles.push_back({c(0), c(2), c(3)});
     }

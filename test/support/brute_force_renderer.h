@@ -24,9 +24,10 @@ struct BeamHit {
   bool is_uncertain = false;
 };
 
-/// Signed-volume test. With corners p_k in the camera, beam d and n_k = p_i x p_j (the plane through the camera's centre and
-/// edge k), the beam meets the triangle when all n_k . d have one sign, at depth D / sum(n_k . d) with D = p_0 . (p_1 x p_2).
-/// It holds for corners behind the camera too. n_k . d is linear in the pixel, so its distance from the edge is in reach.
+/// Signed-volume test. With corners p_k in the camera, beam d and n_k = p_i x p_j (the plane through the camera's
+/// centre and edge k), the beam meets the triangle when all n_k . d have one sign, at depth D / sum(n_k . d) with D =
+/// p_0 . (p_1 x p_2). It holds for corners behind the camera too. n_k . d is linear in the pixel, so its distance from
+/// the edge is in reach.
 class BruteForceRenderer {
  public:
   BruteForceRenderer(const TriangleMesh& mesh, const Pose& T_camera_object, const PinholeCamera& camera, double near_m)
@@ -59,7 +60,8 @@ class BruteForceRenderer {
       if (sum == 0.0) continue;
       const double sign = sum > 0.0 ? 1.0 : -1.0;
       double inside_px = std::numeric_limits<double>::infinity();
-      for (std::size_t k = 0; k < 3; ++k) inside_px = std::min(inside_px, sign * side[k] * triangle.pixels_per_volume[k]);
+      for (std::size_t k = 0; k < 3; ++k)
+        inside_px = std::min(inside_px, sign * side[k] * triangle.pixels_per_volume[k]);
       if (inside_px < -tolerance_px) continue;
       const double depth = triangle.volume / sum;
       if (depth < near_m_ - kNearTolerance) continue;

@@ -21,8 +21,8 @@ template <std::size_t>
 using AnyValueAt = AnyValue;
 
 template <typename Struct, std::size_t... kIndices>
-struct IsBraceConstructible<Struct, std::index_sequence<kIndices...>, std::void_t<decltype(Struct{AnyValueAt<kIndices>()...})>>
-    : std::true_type {};
+struct IsBraceConstructible<Struct, std::index_sequence<kIndices...>,
+                            std::void_t<decltype(Struct{AnyValueAt<kIndices>()...})>> : std::true_type {};
 
 }  // namespace count_fields_detail
 

@@ -14,7 +14,8 @@ inline std::string formatForYaml(const ParameterValue& value) {
   stream.precision(10);
   std::visit([&](const auto& held) { stream << std::boolalpha << held; }, value);
   // A real number keeps its point, so that every YAML reader takes it for one.
-  const bool is_bare_real = std::holds_alternative<double>(value) && stream.str().find_first_of(".e") == std::string::npos;
+  const bool is_bare_real =
+      std::holds_alternative<double>(value) && stream.str().find_first_of(".e") == std::string::npos;
   return stream.str() + (is_bare_real ? ".0" : "");
 }
 

@@ -29,6 +29,8 @@ inline Pose randomPose(std::mt19937_64& engine, double half_width_m) {
 }
 
 /// Largest difference between the entries of two poses' matrices.
-inline double largestDifference(const Pose& a, const Pose& b) { return (a.matrix() - b.matrix()).cwiseAbs().maxCoeff(); }
+inline double largestDifference(const Pose& a, const Pose& b) {
+  return (a.matrix() - b.matrix()).cwiseAbs().maxCoeff();
+}
 
 }  // namespace depth_object_tracker

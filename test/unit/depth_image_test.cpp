@@ -17,7 +17,8 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 template <typename Pixel>
 class ImageMemory {
  public:
-  ImageMemory(const std::vector<std::vector<Pixel>>& rows, std::size_t padding, bool swap_bytes, std::size_t shift = 0) : shift_(shift) {
+  ImageMemory(const std::vector<std::vector<Pixel>>& rows, std::size_t padding, bool swap_bytes, std::size_t shift = 0)
+      : shift_(shift) {
     step_ = rows[0].size() * sizeof(Pixel) + padding;
     bytes_.assign(shift + rows.size() * step_, 0xEE);
     for (std::size_t row = 0; row < rows.size(); ++row) {
@@ -62,7 +63,8 @@ TEST_P(DepthImageLayout, Reads16Bit) {
 
 TEST_P(DepthImageLayout, ReadsFloat) {
   const auto [padding, swap_bytes, shift] = GetParam();
-  ImageMemory<float> memory({{0.0f, 0.5f, kNan}, {kInfinity, -kInfinity, -1.0f}, {3.25f, -0.0f, 1e-30f}}, padding, swap_bytes, shift);
+  ImageMemory<float> memory({{0.0f, 0.5f, kNan}, {kInfinity, -kInfinity, -1.0f}, {3.25f, -0.0f, 1e-30f}}, padding,
+                            swap_bytes, shift);
   const DepthImageView view = memory.view(DepthImageView::PixelType::kFloat32, 1.0f);
   EXPECT_FLOAT_EQ(view.at(0, 1), 0.5f);
   EXPECT_FLOAT_EQ(view.at(2, 0), 3.25f);

@@ -5,9 +5,9 @@
 #include "mesh_files.h"
 #include "temporary_folder.h"
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <Eigen/Geometry>
 
 #include <cmath>
 #include <limits>
@@ -18,7 +18,9 @@
 
 #if defined(__SANITIZE_ADDRESS__)
 // assimp drops parts of damaged files without freeing them.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp"; }
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libassimp";
+}
 #endif
 
 namespace depth_object_tracker {
@@ -47,8 +49,9 @@ TEST_F(MeshLoader, Obj) {
 }
 
 TEST_F(MeshLoader, ObjWithNormalsTexturesMaterialsAndUpperCaseEnding) {
-  EXPECT_EQ(load("a.OBJ", "mtllib a.mtl\nusemtl red\nv 0 0 0\nv 0.1 0 0\nv 0 0.2 0\nvn 0 0 1\nvn 0 1 0\nvt 0 0\nvt 1 0\n"
-                          "f 1/1/1 2/2/1 3/1/1\nusemtl blue\nv 0 0 0.3\nf 1/2/2 2/1/2 4/1/2\nf -4//1 -2//1 -1//1\nf 2 3 4\n"),
+  EXPECT_EQ(load("a.OBJ",
+                 "mtllib a.mtl\nusemtl red\nv 0 0 0\nv 0.1 0 0\nv 0 0.2 0\nvn 0 0 1\nvn 0 1 0\nvt 0 0\nvt 1 0\n"
+                 "f 1/1/1 2/2/1 3/1/1\nusemtl blue\nv 0 0 0.3\nf 1/2/2 2/1/2 4/1/2\nf -4//1 -2//1 -1//1\nf 2 3 4\n"),
             kNoError);
   expectTetrahedron();
 }
@@ -91,7 +94,8 @@ TEST_F(MeshLoader, DaeAppliesItsUnitAndKeepsItsAxes) {
 }
 
 TEST_F(MeshLoader, DaeAppliesTheSceneGraph) {
-  EXPECT_EQ(load("a.dae", tetrahedronDae("1", "Z_UP", "<translate>1 2 3</translate><rotate>0 0 1 90</rotate>")), kNoError);
+  EXPECT_EQ(load("a.dae", tetrahedronDae("1", "Z_UP", "<translate>1 2 3</translate><rotate>0 0 1 90</rotate>")),
+            kNoError);
   EXPECT_LT((boundingBox(mesh_).min - Eigen::Vector3d(0.8, 2.0, 3.0)).norm(), 1e-6);
   EXPECT_LT((boundingBox(mesh_).max - Eigen::Vector3d(1.0, 2.1, 3.3)).norm(), 1e-6);
 }
@@ -121,7 +125,8 @@ TEST_F(MeshLoader, PolygonsOfManyCornersKeepTheirArea) {
   double expected_area = 0.0;
   for (int i = 0; i < kPoints; ++i) {
     const double radius = i % 2 == 0 ? 1.0 : 0.4, angle = 2.0 * M_PI * i / kPoints;
-    obj << "v " << radius * std::cos(angle) << " " << radius * std::sin(angle) << " " << 0.5 * radius * std::cos(angle) << "\n";
+    obj << "v " << radius * std::cos(angle) << " " << radius * std::sin(angle) << " " << 0.5 * radius * std::cos(angle)
+        << "\n";
     expected_area += 0.5 * 1.0 * 0.4 * std::sin(2.0 * M_PI / kPoints);
   }
   obj << "f";
@@ -164,9 +169,10 @@ TEST_F(MeshLoader, VerticesOnTheSamePlaceBecomeOne) {
 
 TEST_F(MeshLoader, FileOfMillimetresIsRecognised) {
   const std::string message = load("drill.stl", tetrahedronStlBinary("", 1000.0));
-  EXPECT_EQ(message, "mesh " + (folder_.path() / "drill.stl").string() +
-                         ": diameter is 360.6 m, which is outside of [0.005, 5] m; 4 triangles were read with mesh_scale 1. "
-                         "The file is probably in millimetres: try mesh_scale 0.001.");
+  EXPECT_EQ(message,
+            "mesh " + (folder_.path() / "drill.stl").string() +
+                ": diameter is 360.6 m, which is outside of [0.005, 5] m; 4 triangles were read with mesh_scale 1. "
+                "The file is probably in millimetres: try mesh_scale 0.001.");
 }
 
 TEST_F(MeshLoader, WrongScaleOfAFileInMetresIsRecognised) {
@@ -180,7 +186,8 @@ TEST_F(MeshLoader, AbsurdSizeWithoutAGuess) {
 }
 
 TEST_F(MeshLoader, BadScaleIsRefused) {
-  for (const double scale : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (const double scale :
+       {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     EXPECT_NE(load("a.obj", tetrahedronObj(), scale).find("mesh_scale is"), std::string::npos) << scale;
   }
 }
@@ -214,7 +221,10 @@ TEST_F(MeshLoader, MaterialsAreNotOpened) {
 TEST_F(MeshLoader, FilesWithoutSurfaceAreExplained) {
   EXPECT_NE(load("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n# nothing else at all\n"), kNoError);
   EXPECT_NE(load("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n").find("degenerate"), std::string::npos);
-  EXPECT_NE(load("cloud.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n"), kNoError);
+  EXPECT_NE(load("cloud.ply",
+                 "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float "
+                 "z\nend_header\n0 0 0\n"),
+            kNoError);
 }
 
 TEST_F(MeshLoader, DamagedFilesGiveErrorsAndNothingWorse) {
@@ -250,8 +260,9 @@ TEST_F(MeshLoader, DamagedDaeFilesAreExplained) {
 }
 
 TEST_F(MeshLoader, TruncatedFilesNeverCrash) {
-  const std::vector<std::pair<std::string, std::string>> files = {{"a.obj", tetrahedronObj()}, {"b.stl", tetrahedronStlAscii()},
-      {"c.stl", tetrahedronStlBinary("")}, {"d.ply", tetrahedronPlyAscii()}, {"e.ply", tetrahedronPlyBinary()}, {"f.dae", tetrahedronDae("1", "Z_UP", "")}};
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {"a.obj", tetrahedronObj()},      {"b.stl", tetrahedronStlAscii()},  {"c.stl", tetrahedronStlBinary("")},
+      {"d.ply", tetrahedronPlyAscii()}, {"e.ply", tetrahedronPlyBinary()}, {"f.dae", tetrahedronDae("1", "Z_UP", "")}};
   for (const auto& [name, content] : files) {
     for (std::size_t size = 1; size < content.size(); size += 7) load(name, content.substr(0, size));
   }
@@ -259,7 +270,9 @@ TEST_F(MeshLoader, TruncatedFilesNeverCrash) {
 
 TEST_F(MeshLoader, UrisAreResolved) {
   const std::string path = folder_.write("my part.obj", tetrahedronObj());
-  const auto resolver = [&](const std::string& package) { return package == "parts" ? folder_.path().string() : std::string(); };
+  const auto resolver = [&](const std::string& package) {
+    return package == "parts" ? folder_.path().string() : std::string();
+  };
   EXPECT_EQ(loadMesh("package://parts/my part.obj", 1.0, resolver).triangles.size(), 4u);
   EXPECT_EQ(loadMesh("file://" + folder_.path().string() + "/my%20part.obj").triangles.size(), 4u);
   EXPECT_EQ(resolveMeshUri("file:///a/b%2fc.obj"), "/a/b/c.obj");

@@ -14,7 +14,9 @@ namespace {
 
 class ObjectFile : public testing::Test {
  protected:
-  ObjectDescription read(const std::string& content) { return loadObjectDescription(folder_.write("object.yaml", content)); }
+  ObjectDescription read(const std::string& content) {
+    return loadObjectDescription(folder_.write("object.yaml", content));
+  }
   /// The complaint about a file; it must name the file.
   std::string complaint(const std::string& content) {
     const std::string message = messageOf<std::invalid_argument>([&] { read(content); });
@@ -58,7 +60,8 @@ symmetries:
 }
 
 TEST_F(ObjectFile, RoundedRotationsAreRepaired) {
-  const ObjectDescription description = read(kMinimal + "symmetries: {discrete: [[0.5, -0.866, 0, 0, 0.866, 0.5, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]]}");
+  const ObjectDescription description =
+      read(kMinimal + "symmetries: {discrete: [[0.5, -0.866, 0, 0, 0.866, 0.5, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]]}");
   EXPECT_TRUE(isValidPose(description.symmetries.discrete.at(0)));
 }
 
@@ -80,12 +83,15 @@ TEST_F(ObjectFile, PackageMeshesNeedAResolver) {
   folder_.write("cup.obj", tetrahedronObj());
   const ObjectDescription description = read("name: cup\nmesh: package://cups/cup.obj\n");
   EXPECT_EQ(description.mesh, "package://cups/cup.obj");
-  EXPECT_EQ(loadObject(description, [&](const std::string&) { return folder_.path().string(); }).mesh.triangles.size(), 4u);
+  EXPECT_EQ(loadObject(description, [&](const std::string&) { return folder_.path().string(); }).mesh.triangles.size(),
+            4u);
   EXPECT_THROW(loadObject(description), MeshError);
 }
 
 TEST_F(ObjectFile, MissingOrBrokenFilesAreExplained) {
-  EXPECT_NE(messageOf<std::invalid_argument>([] { loadObjectDescription("/none.yaml"); }).find("/none.yaml: there is no such object file"),
+  EXPECT_NE(messageOf<std::invalid_argument>([] {
+              loadObjectDescription("/none.yaml");
+            }).find("/none.yaml: there is no such object file"),
             std::string::npos);
   expectComplaint("name: [cup\n", "not valid YAML");
   expectComplaint("", "must be a map");
@@ -113,7 +119,8 @@ TEST_F(ObjectFile, BadSymmetriesAreExplained) {
   expectComplaint(symmetry("{continuous: [{offset: [0, 0, 0]}]}"), "`symmetries.continuous[0].axis` is missing");
   expectComplaint(symmetry("{continuous: [{axis: [0, 0, 0]}]}"), "`symmetries.continuous[0].axis` must not be zero");
   expectComplaint(symmetry("{continuous: [{axis: [0, 1]}]}"), "must be a list of 3 numbers");
-  expectComplaint(symmetry("{continuous: [{axis: [0, 1, .nan]}]}"), "`symmetries.continuous[0].axis[2]` must be finite");
+  expectComplaint(symmetry("{continuous: [{axis: [0, 1, .nan]}]}"),
+                  "`symmetries.continuous[0].axis[2]` must be finite");
   expectComplaint(symmetry("{discrete: [[1, 0, 0]]}"), "`symmetries.discrete[0]` must be a list of 16 numbers");
   expectComplaint(symmetry("{discrete: [[2,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]]}"), "not orthonormal");
   expectComplaint(symmetry("{discrete: [[-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]]}"), "it is a reflection");
@@ -135,7 +142,8 @@ TEST(ShippedObjects, AllLoad) {
   EXPECT_GE(num_objects, 6);
 }
 
-/// A declared symmetry must map the shape onto itself: every vertex lands on a vertex (discrete) or keeps its distance (continuous).
+/// A declared symmetry must map the shape onto itself: every vertex lands on a vertex (discrete) or keeps its distance
+/// (continuous).
 TEST(ShippedObjects, SymmetriesAreTrue) {
   const auto resolver = [](const std::string&) { return std::string(PROJECT_SOURCE_FOLDER); };
   const ObjectModel box = loadObject(loadObjectDescription(PROJECT_SOURCE_FOLDER "/config/objects/box.yaml"), resolver);
@@ -148,7 +156,8 @@ TEST(ShippedObjects, SymmetriesAreTrue) {
       ASSERT_LT(nearest, 2e-6f);
     }
   }
-  const ObjectModel bottle = loadObject(loadObjectDescription(PROJECT_SOURCE_FOLDER "/config/objects/bottle.yaml"), resolver);
+  const ObjectModel bottle =
+      loadObject(loadObjectDescription(PROJECT_SOURCE_FOLDER "/config/objects/bottle.yaml"), resolver);
   ASSERT_EQ(bottle.symmetries.continuous.size(), 1u);
   // 60 facets: turned by one facet, the bottle is itself up to the file's rounding.
   const Eigen::Matrix3f R = expSo3(2.0 * M_PI / 60.0 * bottle.symmetries.continuous[0].axis).cast<float>();

@@ -60,17 +60,25 @@ TEST_P(SamplingGridFactor, EveryCellSeesTheBeamOfItsFullPixel) {
 
 INSTANTIATE_TEST_SUITE_P(Factors, SamplingGridFactor, testing::Range(1, 10));
 
-TEST(SamplingGrid, FactorOneIsTheImageItself) { EXPECT_EQ(makeSamplingGrid(kCamera, 1).camera, kCamera); }
+TEST(SamplingGrid, FactorOneIsTheImageItself) {
+  EXPECT_EQ(makeSamplingGrid(kCamera, 1).camera, kCamera);
+}
 
-TEST(PinholeCamera, GoodIntrinsicsHaveNoProblem) { EXPECT_EQ(kCamera.findProblem(), ""); }
+TEST(PinholeCamera, GoodIntrinsicsHaveNoProblem) {
+  EXPECT_EQ(kCamera.findProblem(), "");
+}
 
 TEST(PinholeCamera, ProblemsNameTheField) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   const std::vector<std::pair<std::string, std::function<void(PinholeCamera&)>>> cases = {
-      {"size", [](PinholeCamera& c) { c.width = 0; }},        {"size", [](PinholeCamera& c) { c.width = -640; }},
-      {"size", [](PinholeCamera& c) { c.height = 0; }},       {"fx", [](PinholeCamera& c) { c.fx = 0.0; }},
-      {"fx", [=](PinholeCamera& c) { c.fx = nan; }},          {"fy", [](PinholeCamera& c) { c.fy = -1.0; }},
-      {"fy", [=](PinholeCamera& c) { c.fy = infinity; }},     {"principal point", [=](PinholeCamera& c) { c.cx = nan; }},
+      {"size", [](PinholeCamera& c) { c.width = 0; }},
+      {"size", [](PinholeCamera& c) { c.width = -640; }},
+      {"size", [](PinholeCamera& c) { c.height = 0; }},
+      {"fx", [](PinholeCamera& c) { c.fx = 0.0; }},
+      {"fx", [=](PinholeCamera& c) { c.fx = nan; }},
+      {"fy", [](PinholeCamera& c) { c.fy = -1.0; }},
+      {"fy", [=](PinholeCamera& c) { c.fy = infinity; }},
+      {"principal point", [=](PinholeCamera& c) { c.cx = nan; }},
       {"principal point", [=](PinholeCamera& c) { c.cy = -infinity; }},
   };
   for (const auto& [field, spoil] : cases) {

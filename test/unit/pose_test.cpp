@@ -45,7 +45,8 @@ TEST(Pose, ExpObeysGroupAxioms) {
 
 TEST(Pose, LogInvertsExpAtEveryMagnitude) {
   std::mt19937_64 engine(4);
-  for (const double angle : {0.0, 1e-300, 1e-14, 1e-9, 1e-6, 0.99e-4, 1.01e-4, 1e-3, 0.5, 2.0, 3.0, M_PI - 1e-3, M_PI - 1e-6, M_PI - 1e-9}) {
+  for (const double angle :
+       {0.0, 1e-300, 1e-14, 1e-9, 1e-6, 0.99e-4, 1.01e-4, 1e-3, 0.5, 2.0, 3.0, M_PI - 1e-3, M_PI - 1e-6, M_PI - 1e-9}) {
     for (int i = 0; i < 20; ++i) {
       const Eigen::Vector3d w = angle * randomVector(engine, 1.0).normalized();
       EXPECT_LT((logSo3(expSo3(w)) - w).norm(), 1e-14 + 2e-15 * angle) << "angle " << angle;
@@ -114,7 +115,8 @@ TEST(Pose, TransportCovarianceAgreesWithMovedSamples) {
   // Entries of a sample covariance scatter by sqrt((c_ii c_jj + c_ij^2) / n): allow five times that.
   for (int row = 0; row < 6; ++row) {
     for (int col = 0; col < 6; ++col) {
-      const double scatter = std::sqrt((transported(row, row) * transported(col, col) + std::pow(transported(row, col), 2)) / kNumSamples);
+      const double scatter =
+          std::sqrt((transported(row, row) * transported(col, col) + std::pow(transported(row, col), 2)) / kNumSamples);
       EXPECT_NEAR(sampled(row, col), transported(row, col), 5.0 * scatter) << row << "," << col;
     }
   }

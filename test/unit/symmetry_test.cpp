@@ -11,7 +11,9 @@
 namespace depth_object_tracker {
 namespace {
 
-double angleBetween(const Pose& a, const Pose& b) { return logSo3(a.linear() * b.linear().transpose()).norm(); }
+double angleBetween(const Pose& a, const Pose& b) {
+  return logSo3(a.linear() * b.linear().transpose()).norm();
+}
 
 Pose turnAboutLine(const SymmetryAxis& line, double angle) {
   Pose pose = Pose::Identity();
@@ -98,7 +100,8 @@ TEST(Symmetry, ContinuousAndDiscreteTogether) {
     const Pose reference = randomPose(engine, 1.0);
     Vector6d small;
     small << randomVector(engine, 0.01), 0.1 * randomVector(engine, 1.0);
-    const Pose flipped = perturb(reference, small) * symmetries.discrete[0] * turnAboutLine(symmetries.continuous[0], 2.0);
+    const Pose flipped =
+        perturb(reference, small) * symmetries.discrete[0] * turnAboutLine(symmetries.continuous[0], 2.0);
     const Pose folded = foldOntoReference(flipped, reference, symmetries);
     EXPECT_LT(angleBetween(folded, reference), 0.2);
     EXPECT_LT((folded.translation() - reference.translation()).norm(), 0.05);

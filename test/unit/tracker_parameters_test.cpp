@@ -22,15 +22,18 @@ namespace {
 
 std::map<std::string, ParameterValue> allValues(const TrackerConfig& config) {
   std::map<std::string, ParameterValue> values;
-  for (const ParameterInfo& parameter : listTrackerParameters()) values[parameter.name] = getTrackerParameter(config, parameter.name);
+  for (const ParameterInfo& parameter : listTrackerParameters())
+    values[parameter.name] = getTrackerParameter(config, parameter.name);
   return values;
 }
 
 TEST(TrackerParameters, EveryFieldIsInTheTable) {
   const std::size_t num_fields = countFields<PixelModelConfig>() + countFields<OcclusionChainConfig>() +
-                                 countFields<ProcessConfig>() + countFields<FilterConfig>() + countFields<ResolutionConfig>() +
-                                 countFields<InitialisationConfig>() + countFields<StatusConfig>();
-  EXPECT_EQ(listTrackerParameters().size(), num_fields) << "a field of a config struct has no line in src/tracker/tracker_parameters.cpp";
+                                 countFields<ProcessConfig>() + countFields<FilterConfig>() +
+                                 countFields<ResolutionConfig>() + countFields<InitialisationConfig>() +
+                                 countFields<StatusConfig>();
+  EXPECT_EQ(listTrackerParameters().size(), num_fields)
+      << "a field of a config struct has no line in src/tracker/tracker_parameters.cpp";
 }
 
 TEST(TrackerParameters, NamesAreUniqueAndDescribed) {
@@ -58,7 +61,8 @@ TEST(TrackerParameters, EachParameterChangesOneFieldOfItsOwn) {
   for (const auto& [name, value] : defaults) {
     TrackerConfig config;
     bool was_set = false;
-    const std::vector<ParameterValue> others = {0.015, 0.5, 0.25, 0.95, 2.0, 3, 60, true, false, std::string("paper"), std::string("process")};
+    const std::vector<ParameterValue> others = {
+        0.015, 0.5, 0.25, 0.95, 2.0, 3, 60, true, false, std::string("paper"), std::string("process")};
     for (const ParameterValue& other : others) {
       if (was_set || other == value) continue;
       try {
@@ -110,22 +114,30 @@ std::string complaint(const std::string& name, const ParameterValue& value) {
 
 TEST(TrackerParameters, BadValuesNameKeyValueAndRange) {
   EXPECT_EQ(complaint("num_particles", 0), "parameter `num_particles` is 0; it must be an integer in [1, 100000]");
-  EXPECT_EQ(complaint("num_particles", 50.0), "parameter `num_particles` is 50.0; it must be an integer in [1, 100000]");
+  EXPECT_EQ(complaint("num_particles", 50.0),
+            "parameter `num_particles` is 50.0; it must be an integer in [1, 100000]");
   EXPECT_EQ(complaint("tail_weight", 0.75), "parameter `tail_weight` is 0.75; it must be a number in [1e-06, 0.5]");
-  EXPECT_EQ(complaint("tail_weight", std::numeric_limits<double>::quiet_NaN()), "parameter `tail_weight` is nan; it must be a number in [1e-06, 0.5]");
-  EXPECT_EQ(complaint("max_depth_m", std::numeric_limits<double>::infinity()), "parameter `max_depth_m` is inf; it must be a number in [0.1, 100]");
-  EXPECT_EQ(complaint("max_depth_m", std::string("far")), "parameter `max_depth_m` is 'far'; it must be a number in [0.1, 100]");
-  EXPECT_EQ(complaint("max_depth_m", std::string("2.0m")), "parameter `max_depth_m` is '2.0m'; it must be a number in [0.1, 100]");
+  EXPECT_EQ(complaint("tail_weight", std::numeric_limits<double>::quiet_NaN()),
+            "parameter `tail_weight` is nan; it must be a number in [1e-06, 0.5]");
+  EXPECT_EQ(complaint("max_depth_m", std::numeric_limits<double>::infinity()),
+            "parameter `max_depth_m` is inf; it must be a number in [0.1, 100]");
+  EXPECT_EQ(complaint("max_depth_m", std::string("far")),
+            "parameter `max_depth_m` is 'far'; it must be a number in [0.1, 100]");
+  EXPECT_EQ(complaint("max_depth_m", std::string("2.0m")),
+            "parameter `max_depth_m` is '2.0m'; it must be a number in [0.1, 100]");
   EXPECT_EQ(complaint("max_depth_m", true), "parameter `max_depth_m` is true; it must be a number in [0.1, 100]");
-  EXPECT_EQ(complaint("proposal", std::string("fast")), "parameter `proposal` is 'fast'; it must be informed | process");
+  EXPECT_EQ(complaint("proposal", std::string("fast")),
+            "parameter `proposal` is 'fast'; it must be informed | process");
   EXPECT_EQ(complaint("proposal", 1), "parameter `proposal` is 1; it must be informed | process");
   EXPECT_EQ(complaint("downsampling", -1), "parameter `downsampling` is -1; it must be an integer in [0, 64] | auto");
-  EXPECT_EQ(complaint("downsampling", std::string("automatic")), "parameter `downsampling` is 'automatic'; it must be an integer in [0, 64] | auto");
+  EXPECT_EQ(complaint("downsampling", std::string("automatic")),
+            "parameter `downsampling` is 'automatic'; it must be an integer in [0, 64] | auto");
   EXPECT_EQ(complaint("seed", -1), "parameter `seed` is -1; it must be an integer in [0, 2147483647]");
 }
 
 TEST(TrackerParameters, UnknownNamesGetTheNearestOne) {
-  EXPECT_EQ(complaint("num_particle", 1), "parameter `num_particle` is unknown; the nearest known one is `num_particles`");
+  EXPECT_EQ(complaint("num_particle", 1),
+            "parameter `num_particle` is unknown; the nearest known one is `num_particles`");
   EXPECT_EQ(complaint("seeds", 1), "parameter `seeds` is unknown; the nearest known one is `seed`");
   EXPECT_EQ(complaint("max_depth", 1), "parameter `max_depth` is unknown; the nearest known one is `max_depth_m`");
   EXPECT_NE(complaint("", 1).find("is unknown"), std::string::npos);
@@ -170,11 +182,14 @@ TEST_F(ParameterFile, FlatAndBelowTracker) {
 }
 
 TEST_F(ParameterFile, EmptyFilesMeanDefaults) {
-  for (const char* content : {"", "# nothing\n", "tracker:\n", "{}"}) EXPECT_EQ(allValues(read(content)), allValues(TrackerConfig()));
+  for (const char* content : {"", "# nothing\n", "tracker:\n", "{}"})
+    EXPECT_EQ(allValues(read(content)), allValues(TrackerConfig()));
 }
 
 TEST_F(ParameterFile, ProblemsNameFileAndKey) {
-  EXPECT_NE(messageOf<std::invalid_argument>([] { loadTrackerConfig("/none.yaml"); }).find("/none.yaml: there is no such"), std::string::npos);
+  EXPECT_NE(
+      messageOf<std::invalid_argument>([] { loadTrackerConfig("/none.yaml"); }).find("/none.yaml: there is no such"),
+      std::string::npos);
   expectComplaint("num_particles: [", "not valid YAML");
   expectComplaint("- 1\n", "expected a map");
   expectComplaint("tracker: 5\n", "expected a map");
@@ -206,34 +221,50 @@ TEST(ShippedParameters, TrackerYamlHoldsEveryDefault) {
   // What the file says, read back, is every default and nothing else.
   TrackerConfig config;
   ASSERT_NO_THROW(config = loadTrackerConfig(path));
-  EXPECT_EQ(allValues(config), allValues(TrackerConfig()));
+  for (const auto& [name, value] : allValues(TrackerConfig()))
+    EXPECT_EQ(getTrackerParameter(config, name), value) << name;
   std::set<std::string> keys;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     if (line.compare(0, 2, "  ") == 0 && line[2] != '#') keys.insert(line.substr(2, line.find(':') - 2));
   }
-  for (const ParameterInfo& parameter : listTrackerParameters()) EXPECT_EQ(keys.count(parameter.name), 1u) << parameter.name;
+  for (const ParameterInfo& parameter : listTrackerParameters())
+    EXPECT_EQ(keys.count(parameter.name), 1u) << parameter.name;
   EXPECT_EQ(keys.size(), listTrackerParameters().size());
 }
 
 TEST(ShippedParameters, PaperYamlIsThePapersFilter) {
   const TrackerConfig config = loadTrackerConfig(PROJECT_SOURCE_FOLDER "/config/paper.yaml");
-  EXPECT_EQ(config.filter.proposal, Proposal::kProcess);
-  EXPECT_EQ(config.filter.num_particles, 200);
-  EXPECT_EQ(config.filter.likelihood_exponent, 1.0);
-  EXPECT_EQ(config.filter.resampling_threshold, 1.0);
-  EXPECT_EQ(config.process.velocity_half_life_s, 0.0);
-  EXPECT_EQ(config.process.sudden_motion_share, 0.0);
-  EXPECT_EQ(config.process.diffusion_full_above_visible_fraction, 0.0);
-  EXPECT_EQ(config.pixel.edge_stddev_px, 0.0);
-  EXPECT_EQ(config.pixel.occluder_model, OccluderModel::kPaper);
-  EXPECT_EQ(config.resolution.downsampling, 5);
-  EXPECT_EQ(config.pixel.object_noise_stddev_m, 0.003);
-  EXPECT_EQ(config.pixel.tail_weight, 0.01);
-  EXPECT_EQ(config.pixel.max_depth_m, 6.0);
-  EXPECT_EQ(config.pixel.occluder_half_life_m, 1.0);
-  EXPECT_EQ(config.occlusion.p_visible_given_visible, 0.9);
-  EXPECT_EQ(config.occlusion.p_visible_given_occluded, 0.3);
+  const std::map<std::string, ParameterValue> paper = {{"proposal", std::string("process")},
+                                                       {"occluder_model", std::string("paper")},
+                                                       {"num_particles", 200},
+                                                       {"downsampling", 5},
+                                                       {"likelihood_exponent", 1.0},
+                                                       {"resampling_threshold", 1.0},
+                                                       {"velocity_half_life_s", 0.0},
+                                                       {"sudden_motion_share", 0.0},
+                                                       {"diffusion_full_above_visible_fraction", 0.0},
+                                                       {"edge_stddev_px", 0.0},
+                                                       {"object_noise_stddev_m", 0.003},
+                                                       {"depth_noise_per_m", 1.425e-3},
+                                                       {"tail_weight", 0.01},
+                                                       {"max_depth_m", 6.0},
+                                                       {"occluder_half_life_m", 1.0},
+                                                       {"p_visible_given_visible", 0.9},
+                                                       {"p_visible_given_occluded", 0.3},
+                                                       {"initial_p_occluded", 0.25}};
+  for (const auto& [name, value] : paper) EXPECT_EQ(getTrackerParameter(config, name), value) << name;
+  // Whatever a description calls the paper's value is what this file has.
+  for (const ParameterInfo& parameter : listTrackerParameters()) {
+    const std::size_t mark = parameter.description.find("(the paper)");
+    if (mark == std::string::npos) continue;
+    const std::size_t equals = parameter.description.rfind(" = ", mark);
+    const std::size_t begin = parameter.description.find_last_of(" ;", equals - 1) + 1;
+    const std::string expected = parameter.description.substr(begin, equals - begin);
+    const std::string value = formatForYaml(getTrackerParameter(config, parameter.name));
+    EXPECT_TRUE(value == expected || value == expected + ".0")
+        << parameter.name << " is " << value << ", not " << expected;
+  }
 }
 
 }  // namespace

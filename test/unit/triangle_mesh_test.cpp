@@ -4,8 +4,8 @@
 
 #include "depth_object_tracker/geometry/mesh_loader.h"
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <cmath>
 #include <limits>
@@ -14,7 +14,9 @@
 namespace depth_object_tracker {
 namespace {
 
-TriangleMesh unitSquare() { return {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}}; }
+TriangleMesh unitSquare() {
+  return {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+}
 
 TEST(TriangleMesh, EmptyMeshHasNoSize) {
   EXPECT_EQ(boundingBox({}).size().norm(), 0.0);
@@ -87,7 +89,8 @@ TEST(TriangleMesh, DegenerateTrianglesGoAndTheOthersStay) {
 
 TEST(TriangleMesh, ThinAndSmallTrianglesOfRealMeshesStay) {
   // A facet of a 1 mm wire, 1 m long, beside a fine triangle of a scan.
-  TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {1, 0.0001f, 0}, {0.5f, 0.5f, 0}, {0.50001f, 0.5f, 0}, {0.5f, 0.50001f, 0}}, {{0, 1, 2}, {3, 4, 5}}};
+  TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {1, 0.0001f, 0}, {0.5f, 0.5f, 0}, {0.50001f, 0.5f, 0}, {0.5f, 0.50001f, 0}},
+                    {{0, 1, 2}, {3, 4, 5}}};
   EXPECT_EQ(removeDegenerateTriangles(mesh), 0u);
 }
 
@@ -107,7 +110,8 @@ TEST(ShippedMeshes, LoadAndAreClosed) {
     Eigen::Vector3d area = Eigen::Vector3d::Zero();
     double volume = 0.0;
     for (const auto& [a, b, c] : mesh.triangles) {
-      const Eigen::Vector3d p = mesh.vertices[a].cast<double>(), q = mesh.vertices[b].cast<double>(), r = mesh.vertices[c].cast<double>();
+      const Eigen::Vector3d p = mesh.vertices[a].cast<double>(), q = mesh.vertices[b].cast<double>(),
+                            r = mesh.vertices[c].cast<double>();
       area += (q - p).cross(r - p) / 2.0;
       volume += p.dot(q.cross(r)) / 6.0;
     }
