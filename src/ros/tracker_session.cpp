@@ -7,6 +7,7 @@
 
 #include <tf2/exceptions.h>
 
+#include <cmath>
 #include <sstream>
 #include <utility>
 
@@ -16,6 +17,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kTransformTimeout{1};  // tf may come a little after the image
 constexpr double kImageOutageS = 1.0;
+constexpr double kGivenPoseReachS = 0.5;              // an initial pose holds for images about this near to its own
 constexpr double kLiveTwistAgeS = 0.2;                // a stream of twists that is older than this has ended
 
 std::string withoutSlash(const std::string& frame) {
@@ -39,6 +41,7 @@ void TrackerSession::setTracker(BuiltTracker built) {
   abandon("another object was loaded");
   pending_pose_.reset();
   initial_pose_problem_.clear();
+  given_pose_.reset();
   last_result_ = TrackerResult();
   last_stamp_s_.reset();
 }
@@ -59,6 +62,7 @@ void TrackerSession::reset() {
   abandon("the tracker was reset");
   pending_pose_.reset();
   initial_pose_problem_.clear();
+  given_pose_.reset();
   last_result_ = TrackerResult();
   last_stamp_s_.reset();
   if (object_.tracker) object_.tracker->reset();
@@ -109,7 +113,7 @@ FrameOutcome TrackerSession::process(const CameraFrame& frame) {
     return outcome;
   }
   warnAboutCalibration(frame);
-  initial_pose_problem_ = applyPendingPose();
+  initial_pose_problem_ = applyPendingPose(outcome.header.stamp.toSec());
   runTracker(outcome);
   return outcome;
 }
@@ -146,7 +150,7 @@ void TrackerSession::warnAboutCalibration(const CameraFrame& frame) {
 }
 
 /// Hands the pending pose to the tracker; returns why it cannot be done (yet).
-std::string TrackerSession::applyPendingPose() {
+std::string TrackerSession::applyPendingPose(double stamp_s) {
   if (!pending_pose_) return initial_pose_problem_;
   ResolvedPose resolved = resolveInitialPose(pending_pose_->pose, camera_frame_, tf_);
   if (!resolved.problem.empty()) {
@@ -161,7 +165,17 @@ std::string TrackerSession::applyPendingPose() {
   resolved.covariance = fillMissingVariances(resolved.covariance, defaults.position_stddev_m, defaults.rotation_stddev_rad);
   object_.tracker->initialise(resolved.T_camera_object, resolved.covariance);
   pending_pose_.reset();
+  given_pose_ = GivenPose{resolved.T_camera_object, resolved.covariance, stamp_s};
   return "";
+}
+
+/// When time jumps back to where the initial pose was given, as with a bag that loops, that pose holds again, and is better than
+/// the one that the object had later.
+bool TrackerSession::restoreGivenPose(double stamp_s) {
+  const bool jumps_back = last_stamp_s_ && stamp_s < *last_stamp_s_;
+  if (!jumps_back || !given_pose_ || std::abs(stamp_s - given_pose_->stamp_s) > kGivenPoseReachS) return false;
+  object_.tracker->initialise(given_pose_->T_camera_object, given_pose_->covariance);
+  return true;
 }
 
 std::optional<ControlInput> TrackerSession::controlFor(double stamp_s) {
@@ -184,10 +198,12 @@ std::optional<ControlInput> TrackerSession::controlFor(double stamp_s) {
 
 void TrackerSession::runTracker(FrameOutcome& outcome) {
   const double stamp_s = outcome.header.stamp.toSec();
+  const bool is_restored = restoreGivenPose(stamp_s);
   outcome.result = object_.tracker->update(outcome.depth, outcome.camera, stamp_s, controlFor(stamp_s));
+  if (is_restored) outcome.result.input = TrackerResult::Input::kTimeJumpedBack;
   outcome.processed = outcome.result.input != TrackerResult::Input::kDuplicateStamp;
   last_stamp_s_ = stamp_s;
-  reportInput(outcome.result, outcome.header);
+  reportInput(outcome, is_restored);
   const bool has_state_to_tell = outcome.result.state != TrackerState::kUninitialized && outcome.result.has_pose;
   outcome.is_new_estimate = outcome.processed && has_state_to_tell;
   if (!initial_pose_problem_.empty() && outcome.result.state != TrackerState::kTracking) {
@@ -198,7 +214,9 @@ void TrackerSession::runTracker(FrameOutcome& outcome) {
 }
 
 /// Says in the log, and where it explains the state also in the reason, what was wrong with the image.
-void TrackerSession::reportInput(TrackerResult& result, const std_msgs::Header& header) {
+void TrackerSession::reportInput(FrameOutcome& outcome, bool is_restored) {
+  TrackerResult& result = outcome.result;
+  const std_msgs::Header& header = outcome.header;
   using Input = TrackerResult::Input;
   if (result.input == Input::kUsed && result.state != TrackerState::kUninitialized && result.valid_pixel_fraction <= 0.0) {
     result.input = Input::kNoValidDepth;
@@ -213,7 +231,8 @@ void TrackerSession::reportInput(TrackerResult& result, const std_msgs::Header& 
       break;
     case Input::kTimeJumpedBack:
       text << image << "jumped back in time, to " << header.stamp
-           << " (a bag that loops, or a clock that was set): starting anew from the last pose";
+           << " (a bag that loops, or a clock that was set): starting anew from the "
+           << (is_restored ? "initial" : "last") << " pose";
       twists_.clear();
       if (ros::Time::isSimTime()) tf_.clear();  // keeps static transforms
       break;

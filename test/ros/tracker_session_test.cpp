@@ -188,6 +188,30 @@ TEST_F(TrackerSessionTest, FollowsAHeldObjectByItsControlTwist) {
   EXPECT_FALSE(session_.awaitsTwist(ros::Time(stamp_s_ + 1.0)));  // the stream has ended
 }
 
+TEST_F(TrackerSessionTest, ABagThatLoopsFindsItsInitialPoseAgain) {
+  initialise(testPose());
+  expectTracking(testPose());
+  Pose pose = testPose();
+  for (int i = 0; i < 40; ++i) {  // far enough away that searching near the last pose finds nothing
+    pose.translation().x() -= 0.004;
+    step(pose);
+  }
+  expectTracking(pose);
+  stamp_s_ = 1000.0;
+  EXPECT_EQ(step(testPose()).result.input, TrackerResult::Input::kTimeJumpedBack);
+  expectTracking(testPose());
+}
+
+TEST_F(TrackerSessionTest, ATimeJumpElsewhereKeepsTheLastPose) {
+  initialise(testPose());
+  expectTracking(testPose());
+  stamp_s_ += 20.0;
+  expectTracking(testPose());
+  stamp_s_ -= 10.0;
+  EXPECT_EQ(step(testPose()).result.input, TrackerResult::Input::kTimeJumpedBack);
+  expectTracking(testPose());
+}
+
 TEST_F(TrackerSessionTest, SaysWhenNoImageComes) {
   initialise(testPose());
   expectTracking(testPose());

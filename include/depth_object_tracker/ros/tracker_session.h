@@ -82,12 +82,20 @@ class TrackerSession {
     std::optional<std::chrono::steady_clock::time_point> deadline;  // set at the first image
   };
 
+  /// The last initial pose that was granted, and the image that it was used for.
+  struct GivenPose {
+    Pose T_camera_object;
+    Matrix6d covariance;
+    double stamp_s;
+  };
+
   std::string viewFrame(const CameraFrame& frame, FrameOutcome& outcome);
   void warnAboutCalibration(const CameraFrame& frame);
-  std::string applyPendingPose();
+  std::string applyPendingPose(double stamp_s);
+  bool restoreGivenPose(double stamp_s);
   std::optional<ControlInput> controlFor(double stamp_s);
   void runTracker(FrameOutcome& outcome);
-  void reportInput(TrackerResult& result, const std_msgs::Header& header);
+  void reportInput(FrameOutcome& outcome, bool is_restored);
   void answerWaiting(const FrameOutcome& outcome);
   TrackerResult refusedResult(const std::string& reason) const;
 
@@ -100,6 +108,7 @@ class TrackerSession {
   BuiltTracker object_;
   std::string initial_pose_problem_;  // why the last wish for an initial pose was not granted
   std::optional<PendingPose> pending_pose_;
+  std::optional<GivenPose> given_pose_;
   InitialisationCallback waiting_;
   bool paused_ = false;
   bool distortion_reported_ = false;
