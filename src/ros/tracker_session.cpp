@@ -5,8 +5,6 @@
 #include "depth_object_tracker/ros/message_conversions.h"
 #include "depth_object_tracker/ros/pose_validation.h"
 
-#include <tf2/exceptions.h>
-
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -18,7 +16,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kTransformTimeout{1};  // tf may come a little after the image
 constexpr double kImageOutageS = 1.0;
 constexpr double kGivenPoseReachS = 0.5;              // an initial pose holds for images about this near to its own
-constexpr double kLiveTwistAgeS = 0.2;                // a stream of twists that is older than this has ended
 
 std::string withoutSlash(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
@@ -68,37 +65,9 @@ void TrackerSession::reset() {
   if (object_.tracker) object_.tracker->reset();
 }
 
-void TrackerSession::setGrasp(bool grasped, const std::string& link) {
-  if (grasped && !grasped_) twists_.clear();  // what was commanded before does not move the object
-  grasped_ = grasped;
-  grasp_link_ = link;
-}
-
 void TrackerSession::addTwist(const geometry_msgs::TwistStamped& twist) {
-  TwistSample sample;
-  sample.stamp_s = twist.header.stamp.toSec();
-  sample.linear_m_s = {twist.twist.linear.x, twist.twist.linear.y, twist.twist.linear.z};
-  sample.angular_rad_s = {twist.twist.angular.x, twist.twist.angular.y, twist.twist.angular.z};
-  const std::string frame = withoutSlash(twist.header.frame_id);
-  if (!frame.empty() && !camera_frame_.empty() && frame != camera_frame_) {
-    try {
-      const auto transform = tf_.lookupTransform(camera_frame_, frame, twist.header.stamp);
-      const Eigen::Matrix3d R_camera_frame = fromTransformMessage(transform.transform).linear();
-      sample.linear_m_s = (R_camera_frame * sample.linear_m_s).eval();
-      sample.angular_rad_s = (R_camera_frame * sample.angular_rad_s).eval();
-    } catch (const tf2::TransformException& error) {
-      log_.warn("control_twist is ignored: tf cannot turn it from frame '" + frame + "' to the camera's frame '" +
-                                   camera_frame_ + "': " + error.what());
-      return;
-    }
-  }
-  if (!twists_.add(sample)) log_.warn("control_twist is ignored: it holds a number that is not finite");
-}
-
-bool TrackerSession::awaitsTwist(const ros::Time& stamp) const {
-  if (!grasped_ || !grasp_link_.empty() || paused_) return false;
-  const auto newest_s = twists_.newestStamp();
-  return newest_s && *newest_s < stamp.toSec() && *newest_s > stamp.toSec() - kLiveTwistAgeS;
+  const std::string problem = held_motion_.addTwist(twist, camera_frame_, tf_);
+  if (!problem.empty()) log_.warn(problem);
 }
 
 FrameOutcome TrackerSession::process(const CameraFrame& frame) {
@@ -179,19 +148,10 @@ bool TrackerSession::restoreGivenPose(double stamp_s) {
 }
 
 std::optional<ControlInput> TrackerSession::controlFor(double stamp_s) {
-  if (!grasped_) return std::nullopt;
-  ControlInput control;
-  control.grasped = true;
-  control.has_twist = false;
-  if (grasp_link_.empty()) {
-    if (const auto mean = twists_.mean(last_stamp_s_.value_or(stamp_s), stamp_s)) {
-      control.has_twist = true;
-      control.linear_m_s = mean->linear_m_s;
-      control.angular_rad_s = mean->angular_rad_s;
-    } else {
-      log_.warn("the object is held, but control_twist says nothing about the time of the image: tracking goes "
-                                 "on with wider noise; check the topic and its stamps");
-    }
+  const auto control = held_motion_.control(last_stamp_s_.value_or(stamp_s), stamp_s);
+  if (control && !control->has_twist && held_motion_.followsTwist()) {
+    log_.warn("the object is held, but control_twist says nothing about the time of the image: tracking goes on with wider noise; "
+              "check the topic and its stamps");
   }
   return control;
 }
@@ -233,7 +193,7 @@ void TrackerSession::reportInput(FrameOutcome& outcome, bool is_restored) {
       text << image << "jumped back in time, to " << header.stamp
            << " (a bag that loops, or a clock that was set): starting anew from the "
            << (is_restored ? "initial" : "last") << " pose";
-      twists_.clear();
+      held_motion_.forgetTwists();
       if (ros::Time::isSimTime()) tf_.clear();  // keeps static transforms
       break;
     case Input::kNoValidDepth:

@@ -2,9 +2,9 @@
 // What the tracker's thread knows and does: object, pending initial pose, grasp; one image in, one outcome out.
 #pragma once
 
-#include "depth_object_tracker/robot/twist_buffer.h"
 #include "depth_object_tracker/ros/camera_conversions.h"
 #include "depth_object_tracker/ros/frame_inbox.h"
+#include "depth_object_tracker/ros/held_motion.h"
 #include "depth_object_tracker/ros/initial_pose_resolver.h"
 #include "depth_object_tracker/ros/object_source.h"
 #include "depth_object_tracker/ros/throttled_log.h"
@@ -56,11 +56,11 @@ class TrackerSession {
   void refuseInitialPose(const std::string& problem);
   void reset();
   void setPaused(bool paused) { paused_ = paused; }
-  void setGrasp(bool grasped, const std::string& link);
+  void setGrasp(bool grasped, const std::string& link) { held_motion_.setGrasp(grasped, link); }
   void addTwist(const geometry_msgs::TwistStamped& twist);
 
   /// True when the image's control twist is not here yet but may well come.
-  bool awaitsTwist(const ros::Time& stamp) const;
+  bool awaitsTwist(const ros::Time& stamp) const { return !paused_ && held_motion_.awaitsTwist(stamp.toSec()); }
 
   FrameOutcome process(const CameraFrame& frame);
 
@@ -72,7 +72,7 @@ class TrackerSession {
 
   const BuiltTracker& object() const { return object_; }
   bool paused() const { return paused_; }
-  bool grasped() const { return grasped_; }
+  bool grasped() const { return held_motion_.isGrasped(); }
   const std::string& cameraFrame() const { return camera_frame_; }
   const std_msgs::Header& lastHeader() const { return last_header_; }
 
@@ -112,9 +112,7 @@ class TrackerSession {
   InitialisationCallback waiting_;
   bool paused_ = false;
   bool distortion_reported_ = false;
-  bool grasped_ = false;
-  std::string grasp_link_;
-  TwistBuffer twists_;
+  HeldMotion held_motion_;
   TrackerResult last_result_;
   std::optional<double> last_stamp_s_;  // of the last image that the tracker saw
   std::string camera_frame_;
