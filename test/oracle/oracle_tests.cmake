@@ -7,3 +7,7 @@ add_tracker_test(likelihood_oracle_tests SOURCES
   oracle/occlusion_brute_force_test.cpp)
 add_tracker_test(renderer_oracle_tests SOURCES
   oracle/renderer_test.cpp)
+add_tracker_test(filter_oracle_tests SOURCES
+  oracle/informed_proposal_test.cpp
+  oracle/kalman_test.cpp
+  oracle/proposal_test.cpp)
