@@ -155,13 +155,18 @@ float DepthLikelihood::meanBelief(int row, int col) const {
 }
 
 double DepthLikelihood::logLikelihood(const Pose& T_camera_centre, int thread) {
+  return broadLogLikelihood(T_camera_centre, 0.0, thread);
+}
+
+double DepthLikelihood::broadLogLikelihood(const Pose& T_camera_centre, double extra_stddev_m, int thread) {
   if (!image_.isPrepared(boundingBox(T_camera_centre))) return -std::numeric_limits<double>::infinity();
   LogProduct likelihood;
   for (const SoftPixel& covered : render(T_camera_centre, thread)) {
-    const MeasuredPixel& pixel = image_.pixel(covered.row, covered.col);
+    MeasuredPixel pixel = image_.pixel(covered.row, covered.col);
     if (pixel.depth <= 0.0f) continue;
+    if (extra_stddev_m > 0.0) widen(pixel, static_cast<float>(extra_stddev_m));
     const PixelRatios ratios = image_.ratios(pixel, covered.depth);
-    const float p_occluded = meanBelief(covered.row, covered.col);
+    const float p_occluded = image_.believedOcclusion(meanBelief(covered.row, covered.col), pixel, covered.depth);
     const float hit = (1.0f - p_occluded) * ratios.visible + p_occluded * ratios.occluded;
     likelihood.multiply(1.0f + covered.coverage * (hit - 1.0f));
   }
@@ -180,7 +185,7 @@ Linearisation DepthLikelihood::linearise(const Pose& T_camera_centre, double ext
     if (pixel.depth <= 0.0f) continue;
     if (extra_stddev_m > 0.0) widen(pixel, static_cast<float>(extra_stddev_m));
     const PixelRatios ratios = image_.ratios(pixel, covered.depth);
-    const float p_occluded = meanBelief(covered.row, covered.col);
+    const float p_occluded = image_.believedOcclusion(meanBelief(covered.row, covered.col), pixel, covered.depth);
     const float hit = (1.0f - p_occluded) * ratios.visible + p_occluded * ratios.occluded;
     const float total = 1.0f + covered.coverage * (hit - 1.0f);
     const Eigen::Vector3d ray = camera.ray(covered.col, covered.row);
@@ -221,7 +226,8 @@ double DepthLikelihood::updateParticle(int index, const Pose& T_camera_centre, i
     const PixelRatios ratios = image_.ratios(pixel, covered.depth);
     const bool remembered = memory_.inRegion(covered.row, covered.col);
     float* belief = remembered ? beliefs + memory_.cell(covered.row, covered.col) : nullptr;
-    const float p_occluded = memory_.probability(remembered ? *belief : memory_.unmeasured());
+    const float p_occluded = image_.believedOcclusion(
+        memory_.probability(remembered ? *belief : memory_.unmeasured()), pixel, covered.depth);
     const float hit = (1.0f - p_occluded) * ratios.visible + p_occluded * ratios.occluded;
     const float total = 1.0f + covered.coverage * (hit - 1.0f);
     likelihood.multiply(total);
@@ -248,7 +254,7 @@ PoseAssessment DepthLikelihood::assess(const Pose& T_camera_centre, int thread) 
     const MeasuredPixel& pixel = image_.pixel(covered.row, covered.col);
     if (pixel.depth <= 0.0f) continue;
     const PixelRatios ratios = image_.ratios(pixel, covered.depth);
-    const float p_occluded = meanBelief(covered.row, covered.col);
+    const float p_occluded = image_.believedOcclusion(meanBelief(covered.row, covered.col), pixel, covered.depth);
     const float visible = (1.0f - p_occluded) * ratios.visible, occluded = p_occluded * ratios.occluded;
     const float total = 1.0f + covered.coverage * (visible + occluded - 1.0f);
     likelihood.multiply(total);

@@ -21,6 +21,8 @@ constexpr double kConvergedStep = 2e-5;      // m, and rad times the object's ra
 constexpr double kFreeDirectionStddevM = 0.7e-3;
 constexpr double kMaxProbeM = 0.02;
 constexpr int kMaxFreeDirections = 3;
+constexpr double kHypothesisWidthM = 0.012;  // hypotheses are judged and climbed from with this much tolerance
+constexpr std::size_t kClimbedHypotheses = 6;
 constexpr int kMaxExplorations = 2;
 constexpr double kWorthMovingNat = 0.5;
 constexpr double kSameModeM = 2e-3;          // modes nearer than this are one
@@ -42,9 +44,10 @@ ModeSearch::ModeSearch(PoseLikelihood& likelihood, const ProcessStep& step, doub
     : likelihood_(likelihood), step_(step), exponent_(likelihood_exponent), object_radius_m_(object_radius_m) {}
 
 std::vector<LocalMode> ModeSearch::run(const PredictedPose& predicted, const std::vector<ModeSearchStart>& starts,
-                                       std::size_t max_modes) {
+                                       const std::vector<Pose>& hypotheses, std::size_t max_modes) {
   std::vector<LocalMode> found;
   for (const ModeSearchStart& start : starts) found.push_back(climb(predicted, start));
+  for (const Pose& hypothesis : bestOf(hypotheses)) found.push_back(climb(predicted, {hypothesis, kHypothesisWidthM}));
   std::stable_sort(found.begin(), found.end(),
                    [](const LocalMode& a, const LocalMode& b) { return a.log_posterior > b.log_posterior; });
   std::vector<LocalMode> modes;
@@ -58,6 +61,18 @@ std::vector<LocalMode> ModeSearch::run(const PredictedPose& predicted, const std
     modes.push_back(exploreFreeDirections(predicted, mode));
   }
   return modes;
+}
+
+std::vector<Pose> ModeSearch::bestOf(const std::vector<Pose>& hypotheses) const {
+  std::vector<std::pair<double, std::size_t>> ranking;
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+    ranking.emplace_back(-likelihood_.broadLogLikelihood(hypotheses[i], kHypothesisWidthM, 0), i);
+  }
+  const std::size_t kept = std::min(ranking.size(), kClimbedHypotheses);
+  std::partial_sort(ranking.begin(), ranking.begin() + static_cast<std::ptrdiff_t>(kept), ranking.end());
+  std::vector<Pose> best;
+  for (std::size_t k = 0; k < kept; ++k) best.push_back(hypotheses[ranking[k].second]);
+  return best;
 }
 
 LocalMode ModeSearch::climb(const PredictedPose& predicted, const ModeSearchStart& start) {

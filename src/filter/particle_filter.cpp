@@ -42,7 +42,7 @@ void ParticleFilter::stopMotion() {
 }
 
 FilterEstimate ParticleFilter::update(PoseLikelihood& likelihood, const ProcessStep& step, double likelihood_exponent,
-                                      const std::vector<ModeSearchStart>& search_starts) {
+                                      const std::vector<Pose>& hypotheses) {
   FilterEstimate estimate;
   Stopwatch stopwatch;
   ++frame_;
@@ -51,7 +51,7 @@ FilterEstimate ParticleFilter::update(PoseLikelihood& likelihood, const ProcessS
 
   predict(step);
   if (config_.proposal == Proposal::kInformed) {
-    drawInformed(step, findModes(likelihood, step, likelihood_exponent, search_starts));
+    drawInformed(step, findModes(likelihood, step, likelihood_exponent, hypotheses));
   } else {
     drawFromProcess(step);
   }
@@ -94,17 +94,17 @@ void ParticleFilter::predict(const ProcessStep& step) {
 }
 
 std::vector<LocalMode> ParticleFilter::findModes(PoseLikelihood& likelihood, const ProcessStep& step, double exponent,
-                                                 const std::vector<ModeSearchStart>& search_starts) {
+                                                 const std::vector<Pose>& hypotheses) {
   const PoseStatistics predicted = poseStatistics(predicted_, weights_, last_mean_);
   std::vector<ModeSearchStart> starts = {{predicted.mean, kNarrowWidthM}, {predicted.mean, kBroadWidthM}};
   if ((last_mean_.translation() - predicted.mean.translation()).norm() > 0.5 * kBroadWidthM) {
     starts.push_back({last_mean_, kBroadWidthM});  // the motion may have stopped
   }
-  starts.insert(starts.end(), search_starts.begin(), search_starts.end());
 
   // The region of interest: all predictions and starts, and as far as a sudden motion reaches.
   std::vector<Pose> region = predicted_;
   for (const ModeSearchStart& start : starts) region.push_back(start.pose);
+  region.insert(region.end(), hypotheses.begin(), hypotheses.end());
   const double reach = 2.0 * std::sqrt(step.widestComponent().variances.head<3>().maxCoeff());
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-reach, reach}) {
@@ -115,7 +115,7 @@ std::vector<LocalMode> ParticleFilter::findModes(PoseLikelihood& likelihood, con
   likelihood.prepare(region);
 
   ModeSearch search(likelihood, step, exponent, object_radius_m_);
-  return search.run({predicted.mean, predicted.covariance}, starts, kMaxModes);
+  return search.run({predicted.mean, predicted.covariance}, starts, hypotheses, kMaxModes);
 }
 
 Vector6d ParticleFilter::normalDraw(std::size_t particle) const {

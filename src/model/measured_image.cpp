@@ -27,7 +27,8 @@ CellBox intersect(const CellBox& a, const CellBox& b) {
 }
 
 MeasuredImage::MeasuredImage(const PixelModelConfig& config)
-    : config_(config), occluder_rate_(static_cast<float>(occluderRate(config))) {}
+    : config_(config), occluder_rate_(static_cast<float>(occluderRate(config))),
+      min_p_occluded_in_front_(static_cast<float>(config.min_p_occluded_in_front)) {}
 
 void MeasuredImage::setImage(const DepthImageView& view, const SamplingGrid& grid) {
   view_ = view;
@@ -101,6 +102,13 @@ PixelRatios MeasuredImage::ratios(const MeasuredPixel& pixel, float rendered_dep
   }
   const float surface = pixel.visible_peak * normal.bell(t);
   return {surface + pixel.tail, pixel.occluded_scale * in_front + pixel.tail, surface};
+}
+
+float MeasuredImage::believedOcclusion(float p_occluded, const MeasuredPixel& pixel, float rendered_depth_m) const {
+  constexpr float kFarInFrontStddevs = 4.0f;
+  const float t = (rendered_depth_m - pixel.depth) * pixel.inverse_stddev - kFarInFrontStddevs;
+  if (t < -2.5f) return p_occluded;
+  return std::max(p_occluded, min_p_occluded_in_front_ * NormalTable::instance().cdf(t));
 }
 
 }  // namespace depth_object_tracker

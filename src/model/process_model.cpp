@@ -55,6 +55,13 @@ void ProcessStep::setNoise(const ProcessConfig& config, Vector6d variances) {
   components_[1].variances = variances * (config.sudden_motion_scale * config.sudden_motion_scale);
 }
 
+void ProcessStep::allowJump(double share, const Vector6d& variances) {
+  num_components_ = 2;
+  components_[0].weight = 1.0 - share;
+  components_[1].weight = share;
+  components_[1].variances = variances.cwiseMax(components_[0].variances);
+}
+
 Pose ProcessStep::predict(const Pose& T_camera_centre, const Vector6d& velocity) const {
   Vector6d displacement;
   if (control_) {

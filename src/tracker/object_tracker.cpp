@@ -18,10 +18,10 @@ namespace {
 // Spread of an angle that nothing can be known of.
 constexpr double kFreeAngleVariance = M_PI * M_PI / 3.0;
 
-constexpr int kInitialStarts = 16;
-constexpr int kSearchStarts = 10;
-// With less of the object in view, a wrong pose may look as good as the right one.
-constexpr double kSearchBelowVisibleFraction = 0.3;
+constexpr int kHypotheses = 100;
+constexpr double kJumpShareWhenLost = 0.3;
+// With less of the object in view its pose counts as not seen.
+constexpr double kSeenAboveVisibleFraction = 0.3;
 
 Symmetries aboutCentre(Symmetries symmetries, const Eigen::Vector3d& centre_object) {
   for (SymmetryAxis& axis : symmetries.continuous) axis.offset -= centre_object;
@@ -93,12 +93,8 @@ class ObjectTracker::Implementation {
   FrameClock::Step advanceClock(double stamp_s);
   double projectedPixels(const PinholeCamera& camera) const;
   double diffusionScale() const;
-  /// What is known before the image beyond the process model: an initial pose, or that the object was lost.
-  struct Uncertainty {
-    std::optional<Vector6d> variances;     ///< replace the process noise
-    std::vector<ModeSearchStart> starts;   ///< further places to look at
-  };
-  Uncertainty describeUncertainty(double dt_s);
+  /// The process into this image, and poses to look at besides: at the start, while little is seen, after a loss.
+  ProcessStep makeStep(double dt_s, const std::optional<ControlInput>& control, std::vector<Pose>& hypotheses);
   void rememberWhenSeen(const FilterEstimate& estimate, double dt_s);
   void writeEstimate(const FilterEstimate& estimate);
   void writeStatus(const PoseAssessment& assessment);
@@ -117,11 +113,9 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
   likelihood.setImage(depth, grid, time.dt_s);
 
   const double exponent = likelihoodExponent(config.filter, grid.factor);
-  const Uncertainty uncertainty = describeUncertainty(time.dt_s);
-  const ProcessStep step = uncertainty.variances
-                               ? ProcessStep(config.process, *uncertainty.variances)
-                               : ProcessStep(config.process, time.dt_s, control, centre_object, diffusionScale());
-  const FilterEstimate estimate = filter.update(likelihood, step, exponent, uncertainty.starts);
+  std::vector<Pose> hypotheses;
+  const ProcessStep step = makeStep(time.dt_s, control, hypotheses);
+  const FilterEstimate estimate = filter.update(likelihood, step, exponent, hypotheses);
   likelihood.setWeights(filter.weights());
 
   const PoseAssessment assessment = likelihood.assess(estimate.pose.mean, 0);
@@ -181,28 +175,29 @@ FrameClock::Step ObjectTracker::Implementation::advanceClock(double stamp_s) {
   return time;
 }
 
-ObjectTracker::Implementation::Uncertainty ObjectTracker::Implementation::describeUncertainty(double dt_s) {
-  Uncertainty uncertainty;
-  if (config.filter.proposal == Proposal::kProcess) {
-    uncertainty.variances.swap(initial_variances);
-    return uncertainty;
-  }
+ProcessStep ObjectTracker::Implementation::makeStep(double dt_s, const std::optional<ControlInput>& control,
+                                                   std::vector<Pose>& hypotheses) {
+  const bool may_search = config.filter.proposal == Proposal::kInformed;
   if (initial_variances) {
-    uncertainty.variances.swap(initial_variances);
-    uncertainty.starts = search.around(filter.poses().front(), *uncertainty.variances, kInitialStarts);
-  } else if (status.state() == TrackerState::kLost || status.misfit()) {
-    const Vector6d variances = searchVariances(unseen_s + dt_s);
-    if (status.state() == TrackerState::kLost) uncertainty.variances = variances;
-    uncertainty.starts = search.around(last_seen_centre, variances, kSearchStarts);
-  } else if (status.visibleFraction() < kSearchBelowVisibleFraction) {
-    uncertainty.starts = search.around(last_seen_centre, searchVariances(unseen_s + dt_s), kSearchStarts);
+    const ProcessStep step(config.process, *initial_variances);
+    if (may_search) hypotheses = search.around(filter.poses().front(), *initial_variances, kHypotheses);
+    initial_variances.reset();
+    return step;
   }
-  return uncertainty;
+  ProcessStep step(config.process, dt_s, control, centre_object, diffusionScale());
+  const bool lost = status.state() == TrackerState::kLost || status.misfit();
+  // While hidden it stays where it is: with so little in view, whatever is looked at further away may fit by chance.
+  if (may_search && lost) {
+    const Vector6d variances = searchVariances(unseen_s + dt_s);
+    step.allowJump(kJumpShareWhenLost, variances);
+    hypotheses = search.around(last_seen_centre, variances, kHypotheses);
+  }
+  return step;
 }
 
 void ObjectTracker::Implementation::rememberWhenSeen(const FilterEstimate& estimate, double dt_s) {
   const bool seen = status.state() == TrackerState::kTracking && !status.misfit() &&
-                    status.visibleFraction() >= kSearchBelowVisibleFraction;
+                    status.visibleFraction() >= kSeenAboveVisibleFraction;
   unseen_s = seen ? 0.0 : unseen_s + dt_s;
   if (seen) last_seen_centre = estimate.pose.mean;
 }

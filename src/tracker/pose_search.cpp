@@ -5,24 +5,18 @@
 #include <cmath>
 
 namespace depth_object_tracker {
-namespace {
-
-constexpr double kStartWidthM = 0.016;
-
-}  // namespace
-
-std::vector<ModeSearchStart> PoseSearch::around(const Pose& T_camera_centre, const Vector6d& variances, int count) {
+std::vector<Pose> PoseSearch::around(const Pose& T_camera_centre, const Vector6d& variances, int count) {
   ++call_;
-  std::vector<ModeSearchStart> starts;
+  std::vector<Pose> poses;
   for (int i = 0; i < count; ++i) {
     Vector6d displacement = Vector6d::Zero();
     if (i > 0) {
       const Vector6d normal = random_.normal6(RandomPurpose::kSearch, call_, static_cast<std::uint32_t>(i));
       displacement = variances.cwiseSqrt().cwiseProduct(normal);
     }
-    starts.push_back({perturb(T_camera_centre, displacement), kStartWidthM});
+    poses.push_back(perturb(T_camera_centre, displacement));
   }
-  return starts;
+  return poses;
 }
 
 Vector6d searchVariances(double hidden_s) {

@@ -30,6 +30,7 @@ Bindings measurementBindings() {
     bindNumber(FIELD(pixel, edge_stddev_px), 0.0, 10.0, "how well the camera sees where an outline is, full-resolution pixels; 0 = to the pixel (the paper)"),
     bindNumber(FIELD(pixel, tail_weight), 1e-6, 0.5, "share of readings that may be anything between 0 and max_depth_m"),
     bindNumber(FIELD(pixel, max_depth_m), 0.1, 100.0, "readings beyond are treated as missing"),
+    bindNumber(FIELD(pixel, min_p_occluded_in_front), 0.0, 0.99, "least probability of occlusion for readings far in front of the object; 0 = unused (the paper)"),
     bindNumber(FIELD(pixel, occluder_half_life_m), 0.01, 100.0, "distance over which the density of occluders halves"),
     bindNumber(FIELD(occlusion, p_visible_given_visible), 0.001, 0.999, "probability that a visible pixel is visible one second later; more than p_visible_given_occluded"),
     bindNumber(FIELD(occlusion, p_visible_given_occluded), 0.001, 0.999, "probability that an occluded pixel is visible one second later"),

@@ -38,6 +38,7 @@ class DepthLikelihood : public PoseLikelihood {
 
   void prepare(const std::vector<Pose>& T_camera_centre) override;
   double logLikelihood(const Pose& T_camera_centre, int thread) override;
+  double broadLogLikelihood(const Pose& T_camera_centre, double extra_stddev_m, int thread) override;
   Linearisation linearise(const Pose& T_camera_centre, double extra_stddev_m, int thread) override;
   void update(const std::vector<Pose>& T_camera_centre, std::vector<double>& log_likelihoods) override;
   void resample(const std::vector<int>& source) override;

@@ -37,11 +37,14 @@ class ModeSearch {
   ModeSearch(PoseLikelihood& likelihood, const ProcessStep& step, double likelihood_exponent, double object_radius_m);
 
   /// The best mode first, then others that compete with it (at most `max_modes`). Empty without starts.
-  std::vector<LocalMode> run(const PredictedPose& predicted, const std::vector<ModeSearchStart>& starts, std::size_t max_modes);
+  /// @param starts all climbed from. @param hypotheses of which only the most promising are.
+  std::vector<LocalMode> run(const PredictedPose& predicted, const std::vector<ModeSearchStart>& starts,
+                             const std::vector<Pose>& hypotheses, std::size_t max_modes);
 
   int likelihoodEvaluations() const { return likelihood_evaluations_; }
 
  private:
+  std::vector<Pose> bestOf(const std::vector<Pose>& hypotheses) const;
   LocalMode climb(const PredictedPose& predicted, const ModeSearchStart& start);
   Vector6d newtonStep(const PredictedPose& predicted, const Matrix6d& prior_information, const Linearisation& model,
                       const Pose& pose) const;

@@ -41,9 +41,9 @@ class ParticleFilter {
   void initialise(const Pose& T_camera_centre);
 
   /// One frame. @param likelihood_exponent gamma in (0, 1].
-  /// @param search_starts further starts for the mode search (after a loss); width in m.
+  /// @param hypotheses further poses to look at (at the start, after a loss).
   FilterEstimate update(PoseLikelihood& likelihood, const ProcessStep& step, double likelihood_exponent,
-                        const std::vector<ModeSearchStart>& search_starts = {});
+                        const std::vector<Pose>& hypotheses = {});
 
   /// Before resampling.
   const std::vector<Pose>& poses() const { return poses_; }
@@ -56,7 +56,7 @@ class ParticleFilter {
   void resampleIfNeeded(PoseLikelihood& likelihood);
   void predict(const ProcessStep& step);
   std::vector<LocalMode> findModes(PoseLikelihood& likelihood, const ProcessStep& step, double exponent,
-                                   const std::vector<ModeSearchStart>& search_starts);
+                                   const std::vector<Pose>& hypotheses);
   void drawFromProcess(const ProcessStep& step);
   void drawInformed(const ProcessStep& step, const std::vector<LocalMode>& modes);
   void foldSymmetries();

@@ -25,6 +25,11 @@ class PoseLikelihood {
   /// With the particles' mean belief about occlusion; changes nothing. Thread-safe for different `thread`.
   virtual double logLikelihood(const Pose& T_camera_centre, int thread) = 0;
 
+  /// The same with surface noise widened by `extra_stddev_m`, so that poses near the right one stand out too.
+  virtual double broadLogLikelihood(const Pose& T_camera_centre, double /*extra_stddev_m*/, int thread) {
+    return logLikelihood(T_camera_centre, thread);
+  }
+
   /// @param extra_stddev_m widens the surface noise so that a far start still pulls towards the data; 0 = the model.
   /// Thread-safe for different `thread`.
   virtual Linearisation linearise(const Pose& T_camera_centre, double extra_stddev_m, int thread) = 0;

@@ -70,6 +70,11 @@ class MeasuredImage {
   /// Thread-safe; @param pixel with a reading.
   PixelRatios ratios(const MeasuredPixel& pixel, float rendered_depth_m) const;
 
+  /// Belief p(occluded) to use for a reading. The object may move behind something, or something before the object; pixels
+  /// are not independent in that, and if each paid for it on its own the estimate would rather flee. So a reading far in
+  /// front of the object counts as occluded with config.min_p_occluded_in_front at least.
+  float believedOcclusion(float p_occluded, const MeasuredPixel& pixel, float rendered_depth_m) const;
+
   /// Address that depth is read from.
   const std::uint8_t* source() const { return view_.data; }
 
@@ -78,6 +83,7 @@ class MeasuredImage {
 
   PixelModelConfig config_;
   float occluder_rate_;
+  float min_p_occluded_in_front_;
   DepthImageView view_;
   SamplingGrid grid_;
   CellBox prepared_;

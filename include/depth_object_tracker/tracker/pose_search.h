@@ -2,9 +2,8 @@
 // Where to look for the object when its pose is not well known: at the start, while it is hidden, after a loss.
 #pragma once
 
-#include "depth_object_tracker/filter/mode_search.h"
 #include "depth_object_tracker/filter/random.h"
-#include "depth_object_tracker/tracker/tracker_result.h"
+#include "depth_object_tracker/geometry/pose.h"
 
 #include <cstdint>
 #include <vector>
@@ -15,8 +14,8 @@ class PoseSearch {
  public:
   explicit PoseSearch(std::uint64_t seed) : random_(seed) {}
 
-  /// Starts drawn from N(mean, variances), the mean itself among them.
-  std::vector<ModeSearchStart> around(const Pose& T_camera_centre, const Vector6d& variances, int count);
+  /// Poses drawn from N(mean, variances), the mean itself among them.
+  std::vector<Pose> around(const Pose& T_camera_centre, const Vector6d& variances, int count);
 
  private:
   RandomSource random_;
