@@ -13,3 +13,17 @@ add_tracker_test(track_sequence_test
   LIBRARIES small_scene nlohmann_json::nlohmann_json opencv_core opencv_imgcodecs GTest::gmock)
 target_compile_definitions(track_sequence_test PRIVATE TRACK_SEQUENCE="$<TARGET_FILE:track_sequence>")
 add_dependencies(track_sequence_test track_sequence)
+
+if(TARGET scene_to_bag)
+  add_tracker_test(scene_to_bag_test
+    SOURCES tools/scene_to_bag_test.cpp
+    LIBRARIES small_scene depth_object_tracker_ros opencv_core opencv_imgcodecs GTest::gmock)
+  target_compile_definitions(scene_to_bag_test PRIVATE SCENE_TO_BAG="$<TARGET_FILE:scene_to_bag>")
+  add_dependencies(scene_to_bag_test scene_to_bag)
+
+  add_test(NAME replay_launch_test
+    COMMAND ${CATKIN_DEVEL_PREFIX}/env.sh ${CMAKE_CURRENT_SOURCE_DIR}/tools/replay_simulated
+      ${PROJECT_SOURCE_DIR}/meshes/drill.obj)
+  set_tests_properties(replay_launch_test PROPERTIES TIMEOUT 300 RUN_SERIAL TRUE
+    ENVIRONMENT "PATH=/usr/bin:$ENV{PATH};ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;ROS_HOSTNAME=localhost")
+endif()
