@@ -25,5 +25,5 @@ if(TARGET scene_to_bag)
     COMMAND ${CATKIN_DEVEL_PREFIX}/env.sh ${CMAKE_CURRENT_SOURCE_DIR}/tools/replay_simulated
       ${PROJECT_SOURCE_DIR}/meshes/drill.obj)
   set_tests_properties(replay_launch_test PROPERTIES TIMEOUT 300 RUN_SERIAL TRUE
-    ENVIRONMENT "PATH=/usr/bin:$ENV{PATH};ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;ROS_HOSTNAME=localhost")
+    ENVIRONMENT "ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;ROS_HOSTNAME=localhost")
 endif()
