@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The published covariance: that of the particles, about the mesh origin, and as large as the errors are.
+#include "tracking_run.h"
+
+#include "depth_object_tracker/simulator/scene_simulator.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+
+namespace depth_object_tracker {
+namespace {
+
+/// Weighted mean and covariance of perturbations from a reference pose.
+struct SampleStatistics {
+  Vector6d mean = Vector6d::Zero();
+  Matrix6d covariance = Matrix6d::Zero();
+
+  SampleStatistics(const ParticlePoses& particles, const Pose& reference) {
+    for (std::size_t i = 0; i < particles.weights.size(); ++i) {
+      mean += particles.weights[i] * difference(particles.T_camera_object[i], reference);
+    }
+    for (std::size_t i = 0; i < particles.weights.size(); ++i) {
+      const Vector6d deviation = difference(particles.T_camera_object[i], reference) - mean;
+      covariance += particles.weights[i] * deviation * deviation.transpose();
+    }
+  }
+};
+
+/// Largest difference of two covariances in units of the expected one's standard deviations.
+double relativeDifference(const Matrix6d& found, const Matrix6d& expected) {
+  const Vector6d scale = expected.diagonal().cwiseSqrt().cwiseInverse();
+  return (scale.asDiagonal() * (found - expected) * scale.asDiagonal()).cwiseAbs().maxCoeff();
+}
+
+class PublishedCovariance : public testing::Test {
+ protected:
+  static TrackerConfig manyParticles() {
+    TrackerConfig config;
+    config.filter.num_particles = 400;
+    return config;
+  }
+
+  PublishedCovariance() : scene_("drill", 8), run_(scene_, restingPose(), manyParticles()) {
+    centre_object_ = surfaceCentroid(scene_.object().mesh);
+  }
+
+  void expectParticleCovariance(double tolerance) {
+    const TrackerResult& result = run_.result();
+    const ParticlePoses particles = run_.tracker().particles();
+    double sum = 0.0;
+    for (const float weight : particles.weights) sum += weight;
+    EXPECT_NEAR(sum, 1.0, 1e-5);
+    const SampleStatistics origins(particles, result.T_camera_object);
+    EXPECT_LT(relativeDifference(result.covariance, origins.covariance), tolerance);
+    // The mean rotation is the particles'; the mean origin is so up to second order in the rotations' spread.
+    const double angle_variance = origins.covariance.bottomRightCorner<3, 3>().trace();
+    EXPECT_LT(origins.mean.tail<3>().norm(), 1e-5);
+    EXPECT_LT(origins.mean.head<3>().norm(), angle_variance * centre_object_.norm() + 1e-7);
+  }
+
+  /// Without any approximation: the particles' covariance about the centre, carried to the origin.
+  void expectTransportedCovariance() {
+    const TrackerResult& result = run_.result();
+    ParticlePoses centres = run_.tracker().particles();
+    for (Pose& pose : centres.T_camera_object) pose = pose * Eigen::Translation3d(centre_object_);
+    const Pose mean_centre = result.T_camera_object * Eigen::Translation3d(centre_object_);
+    const SampleStatistics about_centre(centres, mean_centre);
+    const Eigen::Vector3d origin_from_centre = -(result.T_camera_object.linear() * centre_object_);
+    EXPECT_LT(about_centre.mean.norm(), 1e-5) << "the published pose is the particles' mean";
+    EXPECT_LT(relativeDifference(result.covariance, transportCovariance(about_centre.covariance, origin_from_centre)),
+              1e-4);
+  }
+
+  ScriptedScene scene_;
+  TrackingRun run_;
+  Eigen::Vector3d centre_object_;
+};
+
+TEST_F(PublishedCovariance, IsThatOfTheParticlesMeshOriginsToFirstOrder) {
+  ASSERT_GT(centre_object_.norm(), 0.05) << "centre and origin must differ, else this test shows nothing";
+  for (int k = 0; k < 10; ++k) {
+    run_.step(movedBy(restingPose(), 0.004 * k, 0, 0));
+    // First order: what is left are squares of the rotations' spread, below 0.01 rad here.
+    expectParticleCovariance(0.05);
+    expectTransportedCovariance();
+  }
+  const double angle_variance = run_.result().covariance.diagonal().tail<3>().sum();
+  EXPECT_LT(angle_variance, 0.01);
+}
+
+TEST_F(PublishedCovariance, IsSymmetricAndPositiveAlsoWhileHidden) {
+  run_.rest(restingPose(), 8);
+  for (int k = 0; k < 20; ++k) {
+    run_.step(restingPose(), Board{0, 640, 0.5});
+    const Matrix6d& covariance = run_.result().covariance;
+    EXPECT_LT((covariance - covariance.transpose()).norm(), 1e-12);
+    const Vector6d eigenvalues = Eigen::SelfAdjointEigenSolver<Matrix6d>(covariance).eigenvalues();
+    EXPECT_GT(eigenvalues.minCoeff(), 0.0);
+  }
+  expectTransportedCovariance();
+}
+
+// NEES / degrees of freedom is 1 in the mean when covariances are honest. The bounds are wide: the spread over objects
+// and motions is large, and one run's frames are not independent. What must fail is a covariance off by a factor.
+TEST(Calibration, NormalisedErrorsAreNearOneOverTwentySeeds) {
+  constexpr int kSeeds = 20, kFrames = 24, kSettleFrames = 9;
+  const char* const meshes[] = {"drill", "bracket", "mug", "box"};
+  double sum = 0.0;
+  int count = 0, inside = 0;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    ObjectModel object;
+    object.mesh = loadMesh(std::string(PROJECT_SOURCE_FOLDER) + "/meshes/" + meshes[seed % 4] + ".obj");
+    SimulationConfig simulation;
+    simulation.seed = static_cast<std::uint64_t>(seed);
+    simulation.first_rest_s = 0.0;
+    simulation.duration_s = 2.0;
+    SceneSimulator simulator(object.mesh, simulation);
+    TrackerConfig config;
+    config.filter.seed = static_cast<std::uint64_t>(seed);
+    ObjectTracker tracker(object, config);
+    tracker.initialise(simulator.roughInitialPose());
+    const PoseErrorMeter meter(object.mesh, Symmetries());
+    double seed_sum = 0.0;
+    int seed_count = 0;
+    for (int k = 0; k < kFrames; ++k) {
+      const SimulatedFrame& frame = simulator.render(k / 30.0);
+      DepthImageView view;
+      view.data = reinterpret_cast<const std::uint8_t*>(frame.depth_mm.data());
+      view.width = simulation.camera.width;
+      view.height = simulation.camera.height;
+      view.step = static_cast<std::size_t>(view.width) * 2;
+      const TrackerResult result = tracker.update(view, simulation.camera, frame.stamp_s);
+      if (k < kSettleFrames) continue;
+      const auto squared =
+          meter.normalisedErrorSquared(result.T_camera_object, result.covariance, frame.T_camera_object);
+      ASSERT_TRUE(squared.has_value());
+      seed_sum += *squared / 6.0;
+      ++seed_count;
+      inside += *squared < 12.592 ? 1 : 0;  // 95 % of chi squared with 6 degrees of freedom
+    }
+    std::printf("seed %2d, %-7s: NEES/6 %.2f\n", seed, meshes[seed % 4], seed_sum / seed_count);
+    sum += seed_sum;
+    count += seed_count;
+  }
+  const double mean = sum / count, share_inside = static_cast<double>(inside) / count;
+  std::printf("mean NEES/6 over %d seeds: %.2f; truth inside of the 95 %% region in %.1f %% of %d frames\n", kSeeds,
+              mean, 100.0 * share_inside, count);
+  EXPECT_GT(mean, 0.2);
+  EXPECT_LT(mean, 4.0);
+  EXPECT_GT(share_inside, 0.6);
+}
+
+}  // namespace
+}  // namespace depth_object_tracker

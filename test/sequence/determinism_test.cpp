@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One seed gives one result, byte for byte, on any number of threads.
+#include "tracking_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace depth_object_tracker {
+namespace {
+
+/// Everything that a run says, timings left out, as bytes.
+std::string bytesOfRun(int num_threads, std::uint64_t seed, Proposal proposal) {
+  TrackerConfig config;
+  config.filter.num_threads = num_threads;
+  config.filter.seed = seed;
+  config.filter.proposal = proposal;
+  ScriptedScene scene("drill", 9);
+  Pose truth = restingPose();
+  TrackingRun run(scene, truth, config);
+  std::string bytes;
+  const auto append = [&](const void* data, std::size_t size) { bytes.append(static_cast<const char*>(data), size); };
+  for (int k = 0; k < 16; ++k) {
+    truth = movedBy(truth, 0.2 / 30.0, 0, 0.1 / 30.0, {0, 0.02, 0});
+    // A board comes in between, so that occlusion, search and reappearance take part.
+    const std::optional<Board> board = k >= 8 && k < 12 ? std::make_optional(Board{200, 440, 0.5}) : std::nullopt;
+    const TrackerResult result = run.step(truth, board);
+    append(result.T_camera_object.matrix().data(), 16 * sizeof(double));
+    append(result.covariance.data(), 36 * sizeof(double));
+    append(result.twist.data(), 6 * sizeof(double));
+    append(result.twist_covariance.data(), 36 * sizeof(double));
+    for (const double value :
+         {result.effective_sample_size, result.log_likelihood, result.visible_fraction, result.score}) {
+      append(&value, sizeof(value));
+    }
+    const ParticlePoses particles = run.tracker().particles();
+    for (const Pose& pose : particles.T_camera_object) append(pose.matrix().data(), 16 * sizeof(double));
+    append(particles.weights.data(), particles.weights.size() * sizeof(float));
+    const OcclusionMap map = run.tracker().occlusionMap();
+    append(map.p_occluded.data(), map.p_occluded.size() * sizeof(float));
+  }
+  return bytes;
+}
+
+class Determinism : public testing::TestWithParam<Proposal> {};
+INSTANTIATE_TEST_SUITE_P(Proposals, Determinism, testing::Values(Proposal::kInformed, Proposal::kProcess));
+
+TEST_P(Determinism, SameBytesOnAnyNumberOfThreadsAndEveryTime) {
+  const std::string once = bytesOfRun(1, 1, GetParam());
+  EXPECT_TRUE(once == bytesOfRun(1, 1, GetParam())) << "a repeated run differs";
+  EXPECT_TRUE(once == bytesOfRun(2, 1, GetParam())) << "two threads differ from one";
+  EXPECT_TRUE(once == bytesOfRun(3, 1, GetParam())) << "three threads differ from one";
+  EXPECT_FALSE(once == bytesOfRun(1, 2, GetParam())) << "the seed must matter, else this test shows nothing";
+}
+
+}  // namespace
+}  // namespace depth_object_tracker
