@@ -21,6 +21,7 @@ constexpr double kConvergedStep = 2e-5;      // m, and rad times the object's ra
 constexpr double kFreeDirectionStddevM = 0.7e-3;
 constexpr double kMaxProbeM = 0.02;
 constexpr int kMaxFreeDirections = 3;
+constexpr double kReachSquared = 16.0;       // squared Mahalanobis distance from the prediction
 constexpr double kHypothesisWidthM = 0.012;  // hypotheses are judged and climbed from with this much tolerance
 constexpr std::size_t kClimbedHypotheses = 6;
 constexpr int kMaxExplorations = 2;
@@ -57,10 +58,16 @@ std::vector<LocalMode> ModeSearch::run(const PredictedPose& predicted, const std
     const bool known = std::any_of(modes.begin(), modes.end(), [&](const LocalMode& other) {
       return surfaceMotion(difference(mode.pose, other.pose), object_radius_m_) < kSameModeM;
     });
-    if (known) continue;
+    if (known || isOutOfReach(mode, predicted)) continue;
     modes.push_back(exploreFreeDirections(predicted, mode));
   }
   return modes;
+}
+
+bool ModeSearch::isOutOfReach(const LocalMode& mode, const PredictedPose& predicted) const {
+  // A flat board larger than the object fits one of its faces perfectly: only the process model says that it is too far.
+  const Vector6d displacement = difference(mode.pose, predicted.mean);
+  return displacement.dot(priorInformation(predicted) * displacement) > kReachSquared;
 }
 
 std::vector<Pose> ModeSearch::bestOf(const std::vector<Pose>& hypotheses) const {

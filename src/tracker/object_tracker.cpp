@@ -19,6 +19,8 @@ namespace {
 constexpr double kFreeAngleVariance = M_PI * M_PI / 3.0;
 
 constexpr int kHypotheses = 100;
+constexpr double kPoorFitReachS = 0.3;  // as far as after this long unseen
+constexpr double kPoorScore = 0.85;
 constexpr double kJumpShareWhenLost = 0.3;
 // With less of the object in view its pose counts as not seen.
 constexpr double kSeenAboveVisibleFraction = 0.3;
@@ -82,6 +84,8 @@ class ObjectTracker::Implementation {
   PoseSearch search;
   Pose last_seen_centre = Pose::Identity();
   double unseen_s = 0.0;                      // since the object was last seen well
+  PoseStatistics last_mean;                   // of the centre
+  bool fit_is_poor = false;                   // look around in the next frame
   FrameClock clock;
   std::optional<Vector6d> initial_variances;  // set by initialise, used by the next image
   double full_resolution_pixels = 0.0;        // that the object covers
@@ -95,7 +99,7 @@ class ObjectTracker::Implementation {
   double diffusionScale() const;
   /// The process into this image, and poses to look at besides: at the start, while little is seen, after a loss.
   ProcessStep makeStep(double dt_s, const std::optional<ControlInput>& control, std::vector<Pose>& hypotheses);
-  void rememberWhenSeen(const FilterEstimate& estimate, double dt_s);
+  void rememberFit(const FilterEstimate& estimate, double dt_s);
   void writeEstimate(const FilterEstimate& estimate);
   void writeStatus(const PoseAssessment& assessment);
 };
@@ -121,11 +125,11 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
   const PoseAssessment assessment = likelihood.assess(estimate.pose.mean, 0);
   full_resolution_pixels = assessment.covered_pixels * static_cast<double>(grid.factor * grid.factor);
   status.update(assessment, time.dt_s);
-  rememberWhenSeen(estimate, time.dt_s);
   result.grasped = control && control->grasped;
   result.downsampling = grid.factor;
   writeEstimate(estimate);
   writeStatus(assessment);
+  rememberFit(estimate, time.dt_s);
   result.time.total_s = stopwatch.lap();
   return result;
 }
@@ -186,20 +190,28 @@ ProcessStep ObjectTracker::Implementation::makeStep(double dt_s, const std::opti
   }
   ProcessStep step(config.process, dt_s, control, centre_object, diffusionScale());
   const bool lost = status.state() == TrackerState::kLost || status.misfit();
-  // While hidden it stays where it is: with so little in view, whatever is looked at further away may fit by chance.
   if (may_search && lost) {
     const Vector6d variances = searchVariances(unseen_s + dt_s);
     step.allowJump(kJumpShareWhenLost, variances);
     hypotheses = search.around(last_seen_centre, variances, kHypotheses);
+  } else if (may_search && fit_is_poor) {
+    hypotheses = search.around(last_mean.mean, searchVariances(kPoorFitReachS), kHypotheses);
+  } else if (may_search && status.state() == TrackerState::kOccluded) {
+    // As far as the particles have spread: what is further away may fit by chance.
+    const Vector6d spread = last_mean.covariance.diagonal().cwiseMax(searchVariances(0.0));
+    hypotheses = search.around(last_mean.mean, spread, kHypotheses);
   }
   return step;
 }
 
-void ObjectTracker::Implementation::rememberWhenSeen(const FilterEstimate& estimate, double dt_s) {
+void ObjectTracker::Implementation::rememberFit(const FilterEstimate& estimate, double dt_s) {
   const bool seen = status.state() == TrackerState::kTracking && !status.misfit() &&
                     status.visibleFraction() >= kSeenAboveVisibleFraction;
   unseen_s = seen ? 0.0 : unseen_s + dt_s;
   if (seen) last_seen_centre = estimate.pose.mean;
+  last_mean = estimate.pose;
+  // What is seen fits worse than the sensor model expects: perhaps a neighbouring mode.
+  fit_is_poor = seen && status.score() < kPoorScore;
 }
 
 double ObjectTracker::Implementation::diffusionScale() const {
@@ -258,6 +270,7 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
   self.filter.initialise(T_camera_centre);
   self.last_seen_centre = T_camera_centre;
   self.unseen_s = 0.0;
+  self.fit_is_poor = false;
   self.likelihood.resetOcclusion();
   self.clock.reset();
   self.status.restart();

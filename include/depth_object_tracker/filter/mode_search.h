@@ -44,6 +44,7 @@ class ModeSearch {
   int likelihoodEvaluations() const { return likelihood_evaluations_; }
 
  private:
+  bool isOutOfReach(const LocalMode& mode, const PredictedPose& predicted) const;
   std::vector<Pose> bestOf(const std::vector<Pose>& hypotheses) const;
   LocalMode climb(const PredictedPose& predicted, const ModeSearchStart& start);
   Vector6d newtonStep(const PredictedPose& predicted, const Matrix6d& prior_information, const Linearisation& model,
