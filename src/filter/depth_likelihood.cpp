@@ -32,7 +32,8 @@ std::vector<Eigen::Vector3f> triangleNormals(const TriangleMesh& mesh) {
 
 /// Surface noise widened by an extra standard deviation [m].
 void widen(MeasuredPixel& pixel, float extra_stddev_m) {
-  const float widened = 1.0f / std::sqrt(1.0f / (pixel.inverse_stddev * pixel.inverse_stddev) + extra_stddev_m * extra_stddev_m);
+  const float widened =
+      1.0f / std::sqrt(1.0f / (pixel.inverse_stddev * pixel.inverse_stddev) + extra_stddev_m * extra_stddev_m);
   pixel.visible_peak *= widened / pixel.inverse_stddev;
   pixel.inverse_stddev = widened;
 }
@@ -51,7 +52,8 @@ void addSurfaceTerm(const MeasuredPixel& pixel, float rendered_depth, float resp
 }
 
 /// What a pixel near the outline says: moving the object along the outward image normal covers it more.
-/// @param slope d log L / d distance to the outline [nat/px]. Its square stands for the information (Fisher's identity).
+/// @param slope d log L / d distance to the outline [nat/px]. Its square stands for the information (Fisher's
+/// identity).
 void addOutlineTerm(double slope, const Eigen::Vector2d& normal, const Eigen::Vector3d& ray, double depth,
                     const Eigen::Vector3d& from_centre, const PinholeCamera& camera, Linearisation& sum) {
   const Eigen::Vector3d image_motion(camera.fx * normal.x() / depth, camera.fy * normal.y() / depth,
@@ -197,9 +199,10 @@ Linearisation DepthLikelihood::linearise(const Pose& T_camera_centre, double ext
     }
     if (covered.coverage < 1.0f) {
       const double edge_stddev = edgeStddev(), distance = outline.distance(covered);
-      const double density = std::exp(-0.5 * distance * distance / (edge_stddev * edge_stddev)) / (edge_stddev * std::sqrt(2.0 * M_PI));
-      addOutlineTerm(density * (hit - 1.0) / total, outline.outwardNormal(covered).cast<double>(), ray, covered.depth, from_centre,
-                     camera, result);
+      const double density =
+          std::exp(-0.5 * distance * distance / (edge_stddev * edge_stddev)) / (edge_stddev * std::sqrt(2.0 * M_PI));
+      addOutlineTerm(density * (hit - 1.0) / total, outline.outwardNormal(covered).cast<double>(), ray, covered.depth,
+                     from_centre, camera, result);
     }
   }
   result.information = result.information.selfadjointView<Eigen::Lower>();
@@ -226,8 +229,8 @@ double DepthLikelihood::updateParticle(int index, const Pose& T_camera_centre, i
     const PixelRatios ratios = image_.ratios(pixel, covered.depth);
     const bool remembered = memory_.inRegion(covered.row, covered.col);
     float* belief = remembered ? beliefs + memory_.cell(covered.row, covered.col) : nullptr;
-    const float p_occluded = image_.believedOcclusion(
-        memory_.probability(remembered ? *belief : memory_.unmeasured()), pixel, covered.depth);
+    const float p_occluded = image_.believedOcclusion(memory_.probability(remembered ? *belief : memory_.unmeasured()),
+                                                      pixel, covered.depth);
     const float hit = (1.0f - p_occluded) * ratios.visible + p_occluded * ratios.occluded;
     const float total = 1.0f + covered.coverage * (hit - 1.0f);
     likelihood.multiply(total);
@@ -291,7 +294,8 @@ void DepthLikelihood::occlusionMap(const std::vector<Pose>& T_camera_centre, con
       if (covered.coverage < 0.5f) continue;
       const bool remembered = memory_.inRegion(covered.row, covered.col);
       const float stored = remembered ? beliefs[memory_.cell(covered.row, covered.col)] : memory_.unmeasured();
-      const std::size_t cell = static_cast<std::size_t>(covered.row) * static_cast<std::size_t>(camera.width) + covered.col;
+      const std::size_t cell =
+          static_cast<std::size_t>(covered.row) * static_cast<std::size_t>(camera.width) + covered.col;
       covering[cell] += weight;
       map[cell] += weight * memory_.probability(stored);
     }

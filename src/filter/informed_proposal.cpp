@@ -42,7 +42,8 @@ InformedProposal::InformedProposal(const ProcessStep& step, const std::vector<Lo
   }
 }
 
-InformedProposal::ForParticle::ForParticle(const InformedProposal& proposal, const Pose& predicted) : proposal_(proposal) {
+InformedProposal::ForParticle::ForParticle(const InformedProposal& proposal, const Pose& predicted)
+    : proposal_(proposal) {
   double largest = -1e300;
   for (std::size_t c = 0; c < proposal_.num_components_; ++c) {
     const Component& component = proposal_.components_[c];

@@ -13,11 +13,11 @@
 namespace depth_object_tracker {
 namespace {
 
-constexpr double kNarrowestWidthM = 0.002;   // below: the model's own noise
-constexpr int kFinalSteps = 4;               // with the model's own noise
+constexpr double kNarrowestWidthM = 0.002;  // below: the model's own noise
+constexpr int kFinalSteps = 4;              // with the model's own noise
 constexpr double kMaxStepM = 0.03;
 constexpr double kMaxStepRad = 0.35;
-constexpr double kConvergedStep = 2e-5;      // m, and rad times the object's radius
+constexpr double kConvergedStep = 2e-5;  // m, and rad times the object's radius
 constexpr double kFreeDirectionStddevM = 0.7e-3;
 constexpr double kMaxProbeM = 0.02;
 constexpr int kMaxFreeDirections = 3;
@@ -26,8 +26,8 @@ constexpr double kHypothesisWidthM = 0.012;  // hypotheses are judged and climbe
 constexpr std::size_t kClimbedHypotheses = 6;
 constexpr int kMaxExplorations = 2;
 constexpr double kWorthMovingNat = 0.5;
-constexpr double kSameModeM = 2e-3;          // modes nearer than this are one
-constexpr double kCompetingNat = 12.0;       // modes less probable by more than this are dropped
+constexpr double kSameModeM = 2e-3;     // modes nearer than this are one
+constexpr double kCompetingNat = 12.0;  // modes less probable by more than this are dropped
 
 void limitStep(Vector6d& step) {
   const double scale = std::max({1.0, step.head<3>().norm() / kMaxStepM, step.tail<3>().norm() / kMaxStepRad});
@@ -41,7 +41,8 @@ double surfaceMotion(const Vector6d& displacement, double radius) {
 
 }  // namespace
 
-ModeSearch::ModeSearch(PoseLikelihood& likelihood, const ProcessStep& step, double likelihood_exponent, double object_radius_m)
+ModeSearch::ModeSearch(PoseLikelihood& likelihood, const ProcessStep& step, double likelihood_exponent,
+                       double object_radius_m)
     : likelihood_(likelihood), step_(step), exponent_(likelihood_exponent), object_radius_m_(object_radius_m) {}
 
 std::vector<LocalMode> ModeSearch::run(const PredictedPose& predicted, const std::vector<ModeSearchStart>& starts,
@@ -65,7 +66,8 @@ std::vector<LocalMode> ModeSearch::run(const PredictedPose& predicted, const std
 }
 
 bool ModeSearch::isOutOfReach(const LocalMode& mode, const PredictedPose& predicted) const {
-  // A flat board larger than the object fits one of its faces perfectly: only the process model says that it is too far.
+  // A flat board larger than the object fits one of its faces perfectly: only the process model says that it is too
+  // far.
   const Vector6d displacement = difference(mode.pose, predicted.mean);
   return displacement.dot(priorInformation(predicted) * displacement) > kReachSquared;
 }
@@ -104,8 +106,8 @@ LocalMode ModeSearch::climb(const PredictedPose& predicted, const ModeSearchStar
   return mode;
 }
 
-Vector6d ModeSearch::newtonStep(const PredictedPose& predicted, const Matrix6d& prior_information, const Linearisation& model,
-                                const Pose& pose) const {
+Vector6d ModeSearch::newtonStep(const PredictedPose& predicted, const Matrix6d& prior_information,
+                                const Linearisation& model, const Pose& pose) const {
   const Matrix6d information = exponent_ * model.information + prior_information;
   const Vector6d slope = exponent_ * model.gradient + prior_information * difference(predicted.mean, pose);
   return information.ldlt().solve(slope);
@@ -128,8 +130,9 @@ double ModeSearch::temperedLogLikelihood(const Pose& pose) {
 }
 
 LocalMode ModeSearch::exploreFreeDirections(const PredictedPose& predicted, LocalMode mode) {
-  // Depth inside of the outline says little about a face that slides in its own plane or a mug that turns about its axis: the
-  // mode that was climbed may be one of several. Probes at the posterior's own scale find better ones and measure curvature.
+  // Depth inside of the outline says little about a face that slides in its own plane or a mug that turns about its
+  // axis: the mode that was climbed may be one of several. Probes at the posterior's own scale find better ones and
+  // measure curvature.
   for (int round = 0; round < kMaxExplorations; ++round) {
     std::optional<Pose> better;
     LocalMode probed = mode;

@@ -60,7 +60,8 @@ void OcclusionMemory::moveRegion(const CellBox& region) {
     float* to = &spare_[static_cast<std::size_t>(particle_index) * cells];
     for (int row = kept.row_begin; row < kept.row_end; ++row) {
       const float* begin = from + cell(row, kept.col_begin);
-      std::copy(begin, begin + kept.cols(), to + (row - region.row_begin) * region.cols() + (kept.col_begin - region.col_begin));
+      std::copy(begin, begin + kept.cols(),
+                to + (row - region.row_begin) * region.cols() + (kept.col_begin - region.col_begin));
     }
   }
   values_.swap(spare_);
@@ -75,10 +76,11 @@ void OcclusionMemory::resampleGrid(const SamplingGrid& from, const SamplingGrid&
     return std::max(0, (full - to.offset() + to.factor / 2) / to.factor);
   };
   const CellBox image_box{0, to.camera.height, 0, to.camera.width};
-  const CellBox region = intersect({scaled(region_.row_begin), scaled(region_.row_end - 1) + 1, scaled(region_.col_begin),
-                                    scaled(region_.col_end - 1) + 1},
+  const CellBox region = intersect({scaled(region_.row_begin), scaled(region_.row_end - 1) + 1,
+                                    scaled(region_.col_begin), scaled(region_.col_end - 1) + 1},
                                    image_box);
-  const std::size_t cells = static_cast<std::size_t>(std::max(0, region.rows())) * static_cast<std::size_t>(std::max(0, region.cols()));
+  const std::size_t cells =
+      static_cast<std::size_t>(std::max(0, region.rows())) * static_cast<std::size_t>(std::max(0, region.cols()));
   spare_.assign(cells * static_cast<std::size_t>(num_particles_), unmeasured_);
   const auto nearest = [&](int full_pixel) { return (full_pixel - from.offset() + from.factor / 2) / from.factor; };
   for (int particle_index = 0; particle_index < num_particles_; ++particle_index) {

@@ -13,13 +13,15 @@ using Generator = r123::Philox4x32;
 Generator::ctr_type block(std::uint64_t seed, RandomPurpose purpose, std::uint64_t frame, std::uint32_t index,
                           std::uint32_t part) {
   const Generator::key_type key = {{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}};
-  const Generator::ctr_type counter = {{static_cast<std::uint32_t>(frame), static_cast<std::uint32_t>(frame >> 32), index,
-                                        static_cast<std::uint32_t>(purpose) * 16u + part}};
+  const Generator::ctr_type counter = {{static_cast<std::uint32_t>(frame), static_cast<std::uint32_t>(frame >> 32),
+                                        index, static_cast<std::uint32_t>(purpose) * 16u + part}};
   return Generator()(counter, key);
 }
 
 /// Maps 32 random bits to the open interval (0, 1).
-double toOpenUnit(std::uint32_t bits) { return (static_cast<double>(bits) + 0.5) * 0x1p-32; }
+double toOpenUnit(std::uint32_t bits) {
+  return (static_cast<double>(bits) + 0.5) * 0x1p-32;
+}
 
 }  // namespace
 

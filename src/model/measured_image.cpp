@@ -27,7 +27,8 @@ CellBox intersect(const CellBox& a, const CellBox& b) {
 }
 
 MeasuredImage::MeasuredImage(const PixelModelConfig& config)
-    : config_(config), occluder_rate_(static_cast<float>(occluderRate(config))),
+    : config_(config),
+      occluder_rate_(static_cast<float>(occluderRate(config))),
       min_p_occluded_in_front_(static_cast<float>(config.min_p_occluded_in_front)) {}
 
 void MeasuredImage::setImage(const DepthImageView& view, const SamplingGrid& grid) {

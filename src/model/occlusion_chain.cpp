@@ -12,7 +12,9 @@ OcclusionChain::OcclusionChain(const OcclusionChainConfig& config) {
   stationary_ = becomes_occluded / (becomes_occluded + config.p_visible_given_occluded);
 }
 
-double OcclusionChain::decay(double dt_s) const { return std::pow(decay_per_second_, dt_s); }
+double OcclusionChain::decay(double dt_s) const {
+  return std::pow(decay_per_second_, dt_s);
+}
 
 double OcclusionChain::predict(double p_occluded, double dt_s) const {
   return stationary_ + (p_occluded - stationary_) * decay(dt_s);

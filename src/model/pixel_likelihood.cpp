@@ -11,7 +11,9 @@ double normalDensity(double x, double stddev) {
   return std::exp(-0.5 * t * t) / (stddev * std::sqrt(2.0 * M_PI));
 }
 
-double normalCdf(double t) { return 0.5 * std::erfc(-t * M_SQRT1_2); }
+double normalCdf(double t) {
+  return 0.5 * std::erfc(-t * M_SQRT1_2);
+}
 
 double tailDensity(double z, const PixelModelConfig& config) {
   return z > 0.0 && z < config.max_depth_m ? config.tail_weight / config.max_depth_m : 0.0;
@@ -34,7 +36,9 @@ double surfaceNoiseStddev(double measured_depth_m, const PixelModelConfig& confi
   return std::hypot(cameraNoiseStddev(measured_depth_m, config), config.object_noise_stddev_m);
 }
 
-double occluderRate(const PixelModelConfig& config) { return M_LN2 / config.occluder_half_life_m; }
+double occluderRate(const PixelModelConfig& config) {
+  return M_LN2 / config.occluder_half_life_m;
+}
 
 double visibleDensity(double measured_depth_m, double rendered_depth_m, const PixelModelConfig& config) {
   const double stddev = surfaceNoiseStddev(measured_depth_m, config);
@@ -59,7 +63,8 @@ double missDensity(double measured_depth_m, const PixelModelConfig& config) {
   return blurredOccluderDensity(measured_depth_m, config) + tailDensity(measured_depth_m, config);
 }
 
-PixelUpdate updatePixel(double measured_depth_m, double rendered_depth_m, double p_occluded, const PixelModelConfig& config) {
+PixelUpdate updatePixel(double measured_depth_m, double rendered_depth_m, double p_occluded,
+                        const PixelModelConfig& config) {
   if (!(measured_depth_m > 0.0 && measured_depth_m <= config.max_depth_m)) return {0.0, p_occluded};
   const double visible = (1.0 - p_occluded) * visibleDensity(measured_depth_m, rendered_depth_m, config);
   const double occluded = p_occluded * occludedDensity(measured_depth_m, rendered_depth_m, config);

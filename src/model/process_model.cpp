@@ -16,7 +16,8 @@ constexpr double kMinRotationStddevRad = 1e-4;
 }  // namespace
 
 double ProcessComponent::logDensity(const Vector6d& displacement) const {
-  return -0.5 * (displacement.cwiseAbs2().cwiseQuotient(variances).sum() + variances.array().log().sum()) - 3.0 * kLogTwoPi;
+  return -0.5 * (displacement.cwiseAbs2().cwiseQuotient(variances).sum() + variances.array().log().sum()) -
+         3.0 * kLogTwoPi;
 }
 
 ProcessStep::ProcessStep(const ProcessConfig& config, double dt_s, const std::optional<ControlInput>& control,
@@ -42,7 +43,9 @@ ProcessStep::ProcessStep(const ProcessConfig& config, double dt_s, const std::op
   setNoise(config, variances);
 }
 
-ProcessStep::ProcessStep(const ProcessConfig& config, const Vector6d& variances) { setNoise(config, variances); }
+ProcessStep::ProcessStep(const ProcessConfig& config, const Vector6d& variances) {
+  setNoise(config, variances);
+}
 
 void ProcessStep::setNoise(const ProcessConfig& config, Vector6d variances) {
   variances.head<3>() = variances.head<3>().cwiseMax(kMinPositionStddevM * kMinPositionStddevM);
@@ -76,7 +79,9 @@ Pose ProcessStep::predict(const Pose& T_camera_centre, const Vector6d& velocity)
   return perturb(T_camera_centre, displacement);
 }
 
-Vector6d ProcessStep::dampedVelocity(const Vector6d& velocity) const { return velocity * velocity_decay_; }
+Vector6d ProcessStep::dampedVelocity(const Vector6d& velocity) const {
+  return velocity * velocity_decay_;
+}
 
 double ProcessStep::logDensity(const Vector6d& displacement) const {
   const double usual = components_[0].logDensity(displacement) + std::log(components_[0].weight);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two stages: single-precision bounding boxes throw away the many triangles that hold no pixel centre; the few that may are
-// drawn in double precision, so that depth is exact and shared edges leave neither holes nor double hits.
+// Two stages: single-precision bounding boxes throw away the many triangles that hold no pixel centre; the few that may
+// are drawn in double precision, so that depth is exact and shared edges leave neither holes nor double hits.
 #include "depth_object_tracker/render/depth_renderer.h"
 
 #include "depth_object_tracker/geometry/mesh_orientation.h"
@@ -16,8 +16,9 @@ constexpr float kEmpty = std::numeric_limits<float>::infinity();
 // Bound on the error of single-precision pixel coordinates inside of the image; only makes the first stage keep more.
 constexpr float kProjectionSlackPx = 4e-3f;
 
-/// Directed line through two image points. The side on which a point lies is antisymmetric in the points to the last bit,
-/// because they are taken in one canonical order: the two triangles at an edge then agree about every pixel centre.
+/// Directed line through two image points. The side on which a point lies is antisymmetric in the points to the last
+/// bit, because they are taken in one canonical order: the two triangles at an edge then agree about every pixel
+/// centre.
 class Edge {
  public:
   Edge() = default;
@@ -52,12 +53,17 @@ Eigen::Vector3d cutAtNearPlane(const Eigen::Vector3d& inside, const Eigen::Vecto
   return point;
 }
 
-int firstPixel(double coordinate) { return static_cast<int>(std::ceil(coordinate)); }
-int lastPixel(double coordinate) { return static_cast<int>(std::floor(coordinate)); }
+int firstPixel(double coordinate) {
+  return static_cast<int>(std::ceil(coordinate));
+}
+int lastPixel(double coordinate) {
+  return static_cast<int>(std::floor(coordinate));
+}
 
 }  // namespace
 
-DepthRenderer::DepthRenderer(const TriangleMesh& mesh) : triangles_(mesh.triangles), faces_outward_(orientOutward(mesh, triangles_)) {
+DepthRenderer::DepthRenderer(const TriangleMesh& mesh)
+    : triangles_(mesh.triangles), faces_outward_(orientOutward(mesh, triangles_)) {
   const std::size_t count = mesh.vertices.size();
   for (auto* array : {&object_x_, &object_y_, &object_z_, &u_, &v_, &z_}) array->resize(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -115,7 +121,8 @@ void DepthRenderer::drawTriangles() {
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     const auto& [a, b, c] = triangles_[i];
     const auto id = static_cast<std::uint32_t>(i);
-    if (std::max({z_[a], z_[b], z_[c]}) > static_cast<float>(kNearPlaneM) * 0.999f) drawClipped(cornersInCamera(id), id);
+    if (std::max({z_[a], z_[b], z_[c]}) > static_cast<float>(kNearPlaneM) * 0.999f)
+      drawClipped(cornersInCamera(id), id);
   }
 }
 
@@ -132,11 +139,12 @@ void DepthRenderer::drawInFrontOfNearPlane() {
     const float u1 = std::min(std::max(std::max(ua, ub), uc) + kProjectionSlackPx, max_u);
     const float v0 = std::max(std::min(std::min(va, vb), vc) - kProjectionSlackPx, -1.0f);
     const float v1 = std::min(std::max(std::max(va, vb), vc) + kProjectionSlackPx, max_v);
-    // Clamped to the image, coordinates are positive and truncation is floor: equal floors mean no pixel centre between.
+    // Clamped to the image, coordinates are positive and truncation is floor: equal floors mean no pixel centre
+    // between.
     const bool spans_centre = (static_cast<int>(u0 + 1.0f) < static_cast<int>(u1 + 1.0f)) &
                               (static_cast<int>(v0 + 1.0f) < static_cast<int>(v1 + 1.0f));
-    // Counter-clockwise from outside is negative in an image whose y axis points down. What is too close to call is left to
-    // double precision, here and below.
+    // Counter-clockwise from outside is negative in an image whose y axis points down. What is too close to call is
+    // left to double precision, here and below.
     const float area = (ub - ua) * (vc - va) - (vb - va) * (uc - ua);
     const bool may_face_camera = !kCullBackFaces | (area <= kProjectionSlackPx * (u1 - u0 + v1 - v0));
     // No branch: which triangles pass is close to random.
@@ -154,8 +162,10 @@ void DepthRenderer::drawInFrontOfNearPlane() {
 bool DepthRenderer::missesItsOnlyPixel(std::uint32_t triangle) const {
   const auto [a, b, c] = triangles_[triangle];
   const float ua = u_[a], ub = u_[b], uc = u_[c], va = v_[a], vb = v_[b], vc = v_[c];
-  const float u0 = std::min(std::min(ua, ub), uc) - kProjectionSlackPx, u1 = std::max(std::max(ua, ub), uc) + kProjectionSlackPx;
-  const float v0 = std::min(std::min(va, vb), vc) - kProjectionSlackPx, v1 = std::max(std::max(va, vb), vc) + kProjectionSlackPx;
+  const float u0 = std::min(std::min(ua, ub), uc) - kProjectionSlackPx,
+              u1 = std::max(std::max(ua, ub), uc) + kProjectionSlackPx;
+  const float v0 = std::min(std::min(va, vb), vc) - kProjectionSlackPx,
+              v1 = std::max(std::max(va, vb), vc) + kProjectionSlackPx;
   const float x = std::ceil(u0), y = std::ceil(v0);
   if (x + 1.0f <= u1 || y + 1.0f <= v1) return false;
   const float abx = ub - ua, aby = vb - va, acx = uc - ua, acy = vc - va;
@@ -203,8 +213,10 @@ void DepthRenderer::drawVisible(const Corners& corners, const Eigen::Vector3d& p
   const auto [min_u, max_u] = std::minmax({p[0].x(), p[1].x(), p[2].x()});
   const auto [min_v, max_v] = std::minmax({p[0].y(), p[1].y(), p[2].y()});
   if (max_u < 0.0 || max_v < 0.0 || min_u > camera_.width - 1 || min_v > camera_.height - 1) return;
-  const int first_col = firstPixel(std::max(min_u, 0.0)), last_col = lastPixel(std::min<double>(max_u, camera_.width - 1));
-  const int first_row = firstPixel(std::max(min_v, 0.0)), last_row = lastPixel(std::min<double>(max_v, camera_.height - 1));
+  const int first_col = firstPixel(std::max(min_u, 0.0)),
+            last_col = lastPixel(std::min<double>(max_u, camera_.width - 1));
+  const int first_row = firstPixel(std::max(min_v, 0.0)),
+            last_row = lastPixel(std::min<double>(max_v, camera_.height - 1));
   if (first_col > last_col || first_row > last_row) return;
 
   // The beam meets the plane n.p = n.p0 at depth n.p0 / n.ray; n.ray is linear in the pixel.

@@ -19,7 +19,8 @@ const std::vector<SoftPixel>& SoftOutline::soften(const std::vector<CoveredPixel
   soft_.clear();
   if (covered.empty()) return soft_;
   if (edge_stddev_px <= 0.0) {
-    for (const CoveredPixel& pixel : covered) soft_.push_back({pixel.row, pixel.col, pixel.triangle, pixel.depth, 1.0f});
+    for (const CoveredPixel& pixel : covered)
+      soft_.push_back({pixel.row, pixel.col, pixel.triangle, pixel.depth, 1.0f});
     return soft_;
   }
   markCovered(covered);

@@ -41,7 +41,8 @@ double objectRadius(const TriangleMesh& mesh, const Eigen::Vector3d& centre) {
 
 /// Throws when the object cannot be tracked, before anything is built from it.
 const ObjectModel& checked(const ObjectModel& object) {
-  if (object.mesh.triangles.empty()) throw std::invalid_argument("object '" + object.name + "' has a mesh without triangles");
+  if (object.mesh.triangles.empty())
+    throw std::invalid_argument("object '" + object.name + "' has a mesh without triangles");
   return object;
 }
 
@@ -69,9 +70,7 @@ class ObjectTracker::Implementation {
     T_camera_object.translation() -= T_camera_centre.linear() * centre_object;
     return T_camera_object;
   }
-  Pose toCentre(const Pose& T_camera_object) const {
-    return T_camera_object * Eigen::Translation3d(centre_object);
-  }
+  Pose toCentre(const Pose& T_camera_object) const { return T_camera_object * Eigen::Translation3d(centre_object); }
 
   ObjectModel object;
   TrackerConfig config;
@@ -83,9 +82,9 @@ class ObjectTracker::Implementation {
   StatusMonitor status;
   PoseSearch search;
   Pose last_seen_centre = Pose::Identity();
-  double unseen_s = 0.0;                      // since the object was last seen well
-  PoseStatistics last_mean;                   // of the centre
-  bool fit_is_poor = false;                   // look around in the next frame
+  double unseen_s = 0.0;     // since the object was last seen well
+  PoseStatistics last_mean;  // of the centre
+  bool fit_is_poor = false;  // look around in the next frame
   FrameClock clock;
   std::optional<Vector6d> initial_variances;  // set by initialise, used by the next image
   double full_resolution_pixels = 0.0;        // that the object covers
@@ -104,8 +103,8 @@ class ObjectTracker::Implementation {
   void writeStatus(const PoseAssessment& assessment);
 };
 
-TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s,
-                                                    const std::optional<ControlInput>& control) {
+TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth, const PinholeCamera& camera,
+                                                    double stamp_s, const std::optional<ControlInput>& control) {
   Stopwatch stopwatch;
   if (!checkInput(depth, camera, stamp_s)) return result;
   if (status.state() == TrackerState::kUninitialized) return result;
@@ -134,14 +133,16 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
   return result;
 }
 
-bool ObjectTracker::Implementation::checkInput(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s) {
+bool ObjectTracker::Implementation::checkInput(const DepthImageView& depth, const PinholeCamera& camera,
+                                               double stamp_s) {
   std::string problem = camera.findProblem();
   const std::size_t pixel_size = depth.pixel_type == DepthImageView::PixelType::kUint16 ? 2 : 4;
   if (problem.empty() && (depth.data == nullptr || depth.width != camera.width || depth.height != camera.height)) {
-    problem = "depth image is " + std::to_string(depth.width) + "x" + std::to_string(depth.height) + " but the camera model is " +
-              std::to_string(camera.width) + "x" + std::to_string(camera.height);
+    problem = "depth image is " + std::to_string(depth.width) + "x" + std::to_string(depth.height) +
+              " but the camera model is " + std::to_string(camera.width) + "x" + std::to_string(camera.height);
   } else if (problem.empty() && depth.step < static_cast<std::size_t>(depth.width) * pixel_size) {
-    problem = "depth image has " + std::to_string(depth.step) + " bytes a row, too few for " + std::to_string(depth.width) + " pixels";
+    problem = "depth image has " + std::to_string(depth.step) + " bytes a row, too few for " +
+              std::to_string(depth.width) + " pixels";
   } else if (problem.empty() && !std::isfinite(stamp_s)) {
     problem = "image stamp is not finite";
   }
@@ -180,7 +181,7 @@ FrameClock::Step ObjectTracker::Implementation::advanceClock(double stamp_s) {
 }
 
 ProcessStep ObjectTracker::Implementation::makeStep(double dt_s, const std::optional<ControlInput>& control,
-                                                   std::vector<Pose>& hypotheses) {
+                                                    std::vector<Pose>& hypotheses) {
   const bool may_search = config.filter.proposal == Proposal::kInformed;
   if (initial_variances) {
     const ProcessStep step(config.process, *initial_variances);
@@ -294,7 +295,8 @@ TrackerResult ObjectTracker::update(const DepthImageView& depth, const PinholeCa
 ParticlePoses ObjectTracker::particles() const {
   ParticlePoses particles;
   if (!implementation_->result.has_pose) return particles;
-  for (const Pose& pose : implementation_->filter.poses()) particles.T_camera_object.push_back(implementation_->toObject(pose));
+  for (const Pose& pose : implementation_->filter.poses())
+    particles.T_camera_object.push_back(implementation_->toObject(pose));
   for (double weight : implementation_->filter.weights()) particles.weights.push_back(static_cast<float>(weight));
   return particles;
 }
@@ -303,7 +305,8 @@ OcclusionMap ObjectTracker::occlusionMap() const {
   OcclusionMap map;
   if (!implementation_->result.has_pose) return map;
   map.grid = implementation_->likelihood.image().grid();
-  implementation_->likelihood.occlusionMap(implementation_->filter.poses(), implementation_->filter.weights(), map.p_occluded);
+  implementation_->likelihood.occlusionMap(implementation_->filter.poses(), implementation_->filter.weights(),
+                                           map.p_occluded);
   return map;
 }
 
@@ -318,8 +321,14 @@ std::vector<float> ObjectTracker::renderEstimate() const {
   return depth;
 }
 
-const ObjectModel& ObjectTracker::object() const { return implementation_->object; }
-const TrackerConfig& ObjectTracker::config() const { return implementation_->config; }
-double ObjectTracker::diameterM() const { return implementation_->diameter_m; }
+const ObjectModel& ObjectTracker::object() const {
+  return implementation_->object;
+}
+const TrackerConfig& ObjectTracker::config() const {
+  return implementation_->config;
+}
+double ObjectTracker::diameterM() const {
+  return implementation_->diameter_m;
+}
 
 }  // namespace depth_object_tracker

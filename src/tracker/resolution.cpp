@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kMaxFactor = 10;
 constexpr int kFactorWhenUnknown = 4;
-constexpr double kHysteresis = 1.8;             // ratio to the target pixel count that is tolerated
+constexpr double kHysteresis = 1.8;  // ratio to the target pixel count that is tolerated
 constexpr double kExponentAtFullResolution = 0.015;
 
 }  // namespace

@@ -20,8 +20,9 @@ void StatusMonitor::restart() {
 }
 
 void StatusMonitor::update(const PoseAssessment& assessment, double dt_s) {
-  visible_fraction_ =
-      assessment.measured_pixels > 0 ? std::clamp(assessment.visible_pixels / assessment.measured_pixels, 0.0, 1.0) : 0.0;
+  visible_fraction_ = assessment.measured_pixels > 0
+                          ? std::clamp(assessment.visible_pixels / assessment.measured_pixels, 0.0, 1.0)
+                          : 0.0;
   score_ = assessment.expected > 0.0 ? std::clamp(assessment.achieved / assessment.expected, 0.0, 1.5) : 0.0;
   classify(assessment, dt_s);
 }
@@ -36,7 +37,8 @@ void StatusMonitor::classify(const PoseAssessment& assessment, double dt_s) {
   if (misfit_s_ > config_.lost_after_s) {
     state_ = TrackerState::kLost;
     reason_ = outside ? "the object has left the image: bring it back into view or give a new initial pose"
-                      : "the depth image does not fit the object at any pose near the last one: searching; give a new initial pose "
+                      : "the depth image does not fit the object at any pose near the last one: searching; give a new "
+                        "initial pose "
                         "if this lasts";
   } else if (state_ == TrackerState::kLost || state_ == TrackerState::kInitializing) {
     if (misfit || unmeasured || hidden) return;
@@ -44,7 +46,8 @@ void StatusMonitor::classify(const PoseAssessment& assessment, double dt_s) {
     reason_.clear();
   } else if (unmeasured) {
     state_ = TrackerState::kOccluded;
-    reason_ = "no depth readings where the object is expected: is the lens covered, or the object too near or too shiny?";
+    reason_ =
+        "no depth readings where the object is expected: is the lens covered, or the object too near or too shiny?";
   } else if (hidden) {
     state_ = TrackerState::kOccluded;
     reason_ = "the object is hidden: holding the last pose until it is seen again";

@@ -46,8 +46,10 @@ class DepthLikelihood : public PoseLikelihood {
 
   PoseAssessment assess(const Pose& T_camera_centre, int thread);
 
-  /// sum_l w_l p_l / sum_l w_l over the particles that cover a pixel; NaN where they weigh under 0.5. Whole grid, row-major.
-  void occlusionMap(const std::vector<Pose>& T_camera_centre, const std::vector<double>& weights, std::vector<float>& map);
+  /// sum_l w_l p_l / sum_l w_l over the particles that cover a pixel; NaN where they weigh under 0.5. Whole grid,
+  /// row-major.
+  void occlusionMap(const std::vector<Pose>& T_camera_centre, const std::vector<double>& weights,
+                    std::vector<float>& map);
 
   /// Weights for the mean belief of the next frame.
   void setWeights(const std::vector<double>& weights) { weights_ = weights; }

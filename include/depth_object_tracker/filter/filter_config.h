@@ -13,10 +13,10 @@ enum class Proposal {
 
 struct FilterConfig {
   Proposal proposal = Proposal::kInformed;
-  int num_particles = 100;
-  double prior_share = 0.2;              ///< informed: share of particles that still draw from the process model alone
-  double likelihood_exponent = 0.0;      ///< gamma; 0 = chosen from the sampling factor (see likelihoodExponent)
-  double resampling_threshold = 0.5;     ///< resample when the effective share of particles is below; 1 = every frame
+  int num_particles = 70;
+  double prior_share = 0.2;           ///< informed: share of particles that still draw from the process model alone
+  double likelihood_exponent = 0.0;   ///< gamma; 0 = chosen from the sampling factor (see likelihoodExponent)
+  double resampling_threshold = 0.5;  ///< resample when the effective share of particles is below; 1 = every frame
   std::uint64_t seed = 1;
   int num_threads = 1;
 };

@@ -8,8 +8,8 @@
 
 namespace depth_object_tracker {
 
-/// log |det| of the left Jacobian of SO(3) at a rotation vector: turns densities over rotation vectors into densities over
-/// rotations, which do not depend on the chart. [nat], <= 0.
+/// log |det| of the left Jacobian of SO(3) at a rotation vector: turns densities over rotation vectors into densities
+/// over rotations, which do not depend on the chart. [nat], <= 0.
 double logRotationVolume(const Eigen::Vector3d& rotation_vector);
 
 class Gaussian6 {

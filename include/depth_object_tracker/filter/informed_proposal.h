@@ -11,8 +11,8 @@
 namespace depth_object_tracker {
 
 /// q(r | particle) = sum_jk c_jk N(r; m_jk, S_jk) over modes j and process components k, in mode j's chart, where
-/// S = (A_j + Q_k^-1)^-1 and m = S (b_j + Q_k^-1 mu) with the particle's prediction mu. Where a mode's quadratic model is exact this is
-/// the optimal proposal: weights do not depend on the draw.
+/// S = (A_j + Q_k^-1)^-1 and m = S (b_j + Q_k^-1 mu) with the particle's prediction mu. Where a mode's quadratic model
+/// is exact this is the optimal proposal: weights do not depend on the draw.
 class InformedProposal {
  public:
   static constexpr std::size_t kMaxModes = 2;
@@ -44,12 +44,12 @@ class InformedProposal {
  private:
   struct Component {
     std::size_t mode;
-    double log_weight;                // process component's weight and mode's height
-    Vector6d prior_information;       // diagonal of Q_k^-1
-    Matrix6d covariance;              // S
+    double log_weight;           // process component's weight and mode's height
+    Vector6d prior_information;  // diagonal of Q_k^-1
+    Matrix6d covariance;         // S
     Matrix6d precision;
-    Gaussian6 shape;                  // N(0, inflated S)
-    double log_determinant_ratio;     // log(|S| / |Q|) / 2
+    Gaussian6 shape;               // N(0, inflated S)
+    double log_determinant_ratio;  // log(|S| / |Q|) / 2
   };
 
   std::vector<LocalMode> modes_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds where one frame's posterior is high: Gauss-Newton from several starts, and probes along directions depth leaves free.
+// Finds where one frame's posterior is high: Gauss-Newton from several starts, and probes along directions depth leaves
+// free.
 #pragma once
 
 #include "depth_object_tracker/filter/pose_likelihood.h"
@@ -13,11 +14,11 @@ namespace depth_object_tracker {
 
 /// Local quadratic model of gamma * log L about a pose.
 struct LocalMode {
-  Pose pose = Pose::Identity();                     ///< T_camera_centre
-  Vector6d slope = Vector6d::Zero();                ///< of gamma * log L at `pose`
-  Matrix6d information = Matrix6d::Zero();          ///< positive semi-definite
-  double log_likelihood = 0.0;                      ///< gamma * log L at `pose` [nat]
-  double log_posterior = 0.0;                       ///< ... plus the log prior density about the predicted mean
+  Pose pose = Pose::Identity();             ///< T_camera_centre
+  Vector6d slope = Vector6d::Zero();        ///< of gamma * log L at `pose`
+  Matrix6d information = Matrix6d::Zero();  ///< positive semi-definite
+  double log_likelihood = 0.0;              ///< gamma * log L at `pose` [nat]
+  double log_posterior = 0.0;               ///< ... plus the log prior density about the predicted mean
 };
 
 struct ModeSearchStart {
@@ -53,7 +54,8 @@ class ModeSearch {
   /// Directions that the posterior leaves widest, and how far to probe along each [units of the direction].
   std::vector<std::pair<Vector6d, double>> freeDirections(const LocalMode& mode) const;
   /// Measures slope and curvature along a direction. @return a pose met on the way that is better than the mode.
-  std::optional<Pose> probeDirection(const PredictedPose& predicted, const Vector6d& direction, double reach, LocalMode& mode);
+  std::optional<Pose> probeDirection(const PredictedPose& predicted, const Vector6d& direction, double reach,
+                                     LocalMode& mode);
   Matrix6d priorInformation(const PredictedPose& predicted) const;
   double logPrior(const Pose& pose, const PredictedPose& predicted) const;
   double temperedLogLikelihood(const Pose& pose);

@@ -9,8 +9,9 @@
 
 namespace depth_object_tracker {
 
-/// Stores deviations from the chain's stationary value divided by the decay since the start, so that time moves on for all
-/// pixels of all particles by changing one number. Pixels outside of the region hold the belief of a pixel never measured.
+/// Stores deviations from the chain's stationary value divided by the decay since the start, so that time moves on for
+/// all pixels of all particles by changing one number. Pixels outside of the region hold the belief of a pixel never
+/// measured.
 class OcclusionMemory {
  public:
   OcclusionMemory(const OcclusionChainConfig& config, int num_particles);

@@ -23,7 +23,7 @@ struct FilterTimes {
 /// Posterior after one frame, about the object's centre.
 struct FilterEstimate {
   PoseStatistics pose;
-  Vector6d velocity = Vector6d::Zero();            ///< [m/s, rad/s]
+  Vector6d velocity = Vector6d::Zero();  ///< [m/s, rad/s]
   Matrix6d velocity_covariance = Matrix6d::Zero();
   double effective_sample_size = 0.0;
   int pose_evaluations = 0;
@@ -72,9 +72,9 @@ class ParticleFilter {
   RandomSource random_;
   std::uint64_t frame_ = 0;
 
-  std::vector<Pose> poses_;            // T_camera_centre
-  std::vector<Vector6d> velocities_;   // of the centre
-  std::vector<double> weights_;        // sum 1
+  std::vector<Pose> poses_;           // T_camera_centre
+  std::vector<Vector6d> velocities_;  // of the centre
+  std::vector<double> weights_;       // sum 1
   std::vector<Pose> predicted_;
   std::vector<double> log_proposal_ratio_;  // log p(r | r_prev) - log q(r)
   std::vector<double> log_likelihoods_;

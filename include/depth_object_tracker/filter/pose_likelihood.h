@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the particle filter needs to know of a measurement. The depth image is one implementation, closed-form toys in tests others.
+// What the particle filter needs to know of a measurement. The depth image is one implementation, closed-form toys in
+// tests others.
 #pragma once
 
 #include "depth_object_tracker/geometry/pose.h"
@@ -8,7 +9,8 @@
 
 namespace depth_object_tracker {
 
-/// Second-order model of a log-likelihood about a pose: log L(perturb(pose, d)) ~ log L + gradient.d - d.information.d / 2.
+/// Second-order model of a log-likelihood about a pose: log L(perturb(pose, d)) ~ log L + gradient.d - d.information.d
+/// / 2.
 struct Linearisation {
   Vector6d gradient = Vector6d::Zero();
   Matrix6d information = Matrix6d::Zero();  ///< positive semi-definite; zero where nothing is seen

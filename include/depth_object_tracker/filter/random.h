@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counter-based random numbers: a draw depends on (seed, frame, index, purpose) and on nothing else, so results do not depend on
-// the number of threads or on the order of calls.
+// Counter-based random numbers: a draw depends on (seed, frame, index, purpose) and on nothing else, so results do not
+// depend on the number of threads or on the order of calls.
 #pragma once
 
 #include "depth_object_tracker/geometry/pose.h"
@@ -10,7 +10,13 @@
 namespace depth_object_tracker {
 
 /// What a draw is for; keeps streams apart.
-enum class RandomPurpose : std::uint32_t { kInitialPose = 1, kProposal = 2, kComponent = 3, kResampling = 4, kSearch = 5 };
+enum class RandomPurpose : std::uint32_t {
+  kInitialPose = 1,
+  kProposal = 2,
+  kComponent = 3,
+  kResampling = 4,
+  kSearch = 5
+};
 
 class RandomSource {
  public:

@@ -23,8 +23,8 @@ class WorkerPool {
   int numThreads() const { return static_cast<int>(workers_.size()) + 1; }
 
   /// Calls task(index, thread) for every index in [0, count), each once, and returns when all are done.
-  /// `thread` in [0, numThreads()) picks scratch memory. Which thread gets which index is not defined, so results may only
-  /// depend on the index. The task must not throw.
+  /// `thread` in [0, numThreads()) picks scratch memory. Which thread gets which index is not defined, so results may
+  /// only depend on the index. The task must not throw.
   using Task = std::function<void(int index, int thread)>;
   void run(int count, const Task& task);
 
@@ -38,9 +38,9 @@ class WorkerPool {
   const Task* task_ = nullptr;  // guarded by mutex_ when changed; stable while busy_ > 0
   int count_ = 0;
   std::atomic<int> next_{0};
-  int busy_ = 0;               // guarded by mutex_
-  unsigned generation_ = 0;    // guarded by mutex_
-  bool stopping_ = false;      // guarded by mutex_
+  int busy_ = 0;             // guarded by mutex_
+  unsigned generation_ = 0;  // guarded by mutex_
+  bool stopping_ = false;    // guarded by mutex_
 };
 
 }  // namespace depth_object_tracker

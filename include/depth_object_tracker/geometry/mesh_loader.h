@@ -26,9 +26,9 @@ constexpr double kMaxMeshDiameterM = 5.0;
 /// @throws MeshError naming the package that could not be found, or a scheme that is not supported.
 std::string resolveMeshUri(const std::string& uri, const PackageResolver& resolve_package = {});
 
-/// Loads a mesh: polygons triangulated, scene-graph transforms applied, corners at the same place joined, degenerate triangles
-/// dropped, any winding. The axes are the file's own: a DAE file's unit is applied, its up axis is not (as rviz does), so that
-/// the same part saved as .dae and as .stl has the same origin and axes.
+/// Loads a mesh: polygons triangulated, scene-graph transforms applied, corners at the same place joined, degenerate
+/// triangles dropped, any winding. The axes are the file's own: a DAE file's unit is applied, its up axis is not (as
+/// rviz does), so that the same part saved as .dae and as .stl has the same origin and axes.
 /// @param uri `package://`, `file://` or plain path of an .obj, .stl, .ply or .dae file.
 /// @param scale metres per unit of the file (.dae: on top of the unit that it declares), finite and > 0.
 /// @throws MeshError when the file is missing, unreadable, empty, or its diameter is not in

@@ -30,11 +30,13 @@ struct PinholeCamera {
 };
 
 bool operator==(const PinholeCamera& a, const PinholeCamera& b);
-inline bool operator!=(const PinholeCamera& a, const PinholeCamera& b) { return !(a == b); }
+inline bool operator!=(const PinholeCamera& a, const PinholeCamera& b) {
+  return !(a == b);
+}
 
 /// Nearest-neighbour sub-sampling by an integer factor: cell (row, col) is the beam of the full-resolution pixel
-/// (offset + factor * row, offset + factor * col) with offset = factor / 2 (integer division). No pixel is averaged, so beams and
-/// principal point stay exact for even and odd factors alike.
+/// (offset + factor * row, offset + factor * col) with offset = factor / 2 (integer division). No pixel is averaged, so
+/// beams and principal point stay exact for even and odd factors alike.
 struct SamplingGrid {
   PinholeCamera full;    ///< camera of the input image
   PinholeCamera camera;  ///< camera of the grid: same beams, fewer of them

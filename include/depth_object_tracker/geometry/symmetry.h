@@ -22,10 +22,11 @@ struct Symmetries {
 };
 
 /// The pose equivalent to `pose` whose rotation is nearest to that of `reference`.
-Pose foldOntoReference(const Pose& T_camera_object, const Pose& T_camera_object_reference, const Symmetries& symmetries);
+Pose foldOntoReference(const Pose& T_camera_object, const Pose& T_camera_object_reference,
+                       const Symmetries& symmetries);
 
-/// The free axis in camera axes (unit length) when exactly one continuous symmetry is declared; two or more leave no rotation
-/// observable and give nullopt as well.
+/// The free axis in camera axes (unit length) when exactly one continuous symmetry is declared; two or more leave no
+/// rotation observable and give nullopt as well.
 std::optional<Eigen::Vector3d> freeAxisInCamera(const Pose& T_camera_object, const Symmetries& symmetries);
 
 }  // namespace depth_object_tracker

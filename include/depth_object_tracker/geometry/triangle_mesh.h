@@ -11,7 +11,7 @@
 namespace depth_object_tracker {
 
 struct TriangleMesh {
-  std::vector<Eigen::Vector3f> vertices;              ///< [m], object frame
+  std::vector<Eigen::Vector3f> vertices;                ///< [m], object frame
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< vertex indices; any winding
 };
 
@@ -24,8 +24,8 @@ struct BoundingBox {
 /// Box of the vertices that triangles use; all zero when there is none.
 BoundingBox boundingBox(const TriangleMesh& mesh);
 
-/// Largest distance between two vertices [m]: exact on the vertices that are extreme in at least one of many directions, which
-/// is within 1 % of the true diameter.
+/// Largest distance between two vertices [m]: exact on the vertices that are extreme in at least one of many
+/// directions, which is within 1 % of the true diameter.
 double diameter(const TriangleMesh& mesh);
 
 /// Area-weighted centroid of the surface [m], object frame: the point that the filter rotates about. It does not depend

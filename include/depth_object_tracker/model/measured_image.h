@@ -26,13 +26,13 @@ CellBox intersect(const CellBox& a, const CellBox& b);
 
 /// Constants of one measured pixel; densities as ratios to missDensity (see pixel_likelihood.h).
 struct MeasuredPixel {
-  float depth = 0.0f;             ///< [m]; 0 = no reading
-  float inverse_stddev = 0.0f;    ///< 1 / surfaceNoiseStddev [1/m]
-  float visible_peak = 0.0f;      ///< Gaussian part of the visible ratio at d = z
-  float tail = 0.0f;              ///< uniform part of every ratio
-  float occluded_scale = 0.0f;    ///< occluded ratio - tail, far in front of the object
-  float occluded_shift = 0.0f;    ///< shift of the occluder's step, in standard deviations
-  float occluded_floor = 0.0f;    ///< paper's second Phi (readings near the lens); 0 for the consistent model
+  float depth = 0.0f;           ///< [m]; 0 = no reading
+  float inverse_stddev = 0.0f;  ///< 1 / surfaceNoiseStddev [1/m]
+  float visible_peak = 0.0f;    ///< Gaussian part of the visible ratio at d = z
+  float tail = 0.0f;            ///< uniform part of every ratio
+  float occluded_scale = 0.0f;  ///< occluded ratio - tail, far in front of the object
+  float occluded_shift = 0.0f;  ///< shift of the occluder's step, in standard deviations
+  float occluded_floor = 0.0f;  ///< paper's second Phi (readings near the lens); 0 for the consistent model
 };
 
 /// Ratios of a measured pixel's densities to "no object".
@@ -70,9 +70,9 @@ class MeasuredImage {
   /// Thread-safe; @param pixel with a reading.
   PixelRatios ratios(const MeasuredPixel& pixel, float rendered_depth_m) const;
 
-  /// Belief p(occluded) to use for a reading. The object may move behind something, or something before the object; pixels
-  /// are not independent in that, and if each paid for it on its own the estimate would rather flee. So a reading far in
-  /// front of the object counts as occluded with config.min_p_occluded_in_front at least.
+  /// Belief p(occluded) to use for a reading. The object may move behind something, or something before the object;
+  /// pixels are not independent in that, and if each paid for it on its own the estimate would rather flee. So a
+  /// reading far in front of the object counts as occluded with config.min_p_occluded_in_front at least.
   float believedOcclusion(float p_occluded, const MeasuredPixel& pixel, float rendered_depth_m) const;
 
   /// Address that depth is read from.

@@ -12,13 +12,14 @@ enum class OccluderModel {
 
 struct PixelModelConfig {
   OccluderModel occluder_model = OccluderModel::kConsistent;
-  double object_noise_stddev_m = 0.0015;   ///< sigma_m: how far the mesh is from the real surface; the paper: 0.003
-  double depth_noise_per_m = 1.425e-3;     ///< sigma_c(z) = this * z^2 [1/m] (Khoshelham & Elberink 2012)
-  double edge_stddev_px = 0.8;             ///< where the outline is seen, full-resolution pixels; 0 = to the pixel (the paper)
-  double tail_weight = 0.01;               ///< beta: share of readings that are anything in (0, max_depth_m)
-  double max_depth_m = 6.0;                ///< m: readings beyond are treated as missing
-  double min_p_occluded_in_front = 0.5;    ///< p(occluded), at least, of readings far in front of the object; 0 = unused (the paper)
-  double occluder_half_life_m = 1.0;       ///< depth over which the occluders' density halves
+  double object_noise_stddev_m = 0.0015;  ///< sigma_m: how far the mesh is from the real surface; the paper: 0.003
+  double depth_noise_per_m = 1.425e-3;    ///< sigma_c(z) = this * z^2 [1/m] (Khoshelham & Elberink 2012)
+  double edge_stddev_px = 0.8;  ///< where the outline is seen, full-resolution pixels; 0 = to the pixel (the paper)
+  double tail_weight = 0.01;    ///< beta: share of readings that are anything in (0, max_depth_m)
+  double max_depth_m = 6.0;     ///< m: readings beyond are treated as missing
+  double min_p_occluded_in_front =
+      0.5;  ///< p(occluded), at least, of readings far in front of the object; 0 = unused (the paper)
+  double occluder_half_life_m = 1.0;  ///< depth over which the occluders' density halves
 };
 
 struct OcclusionChainConfig {

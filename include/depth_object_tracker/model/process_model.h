@@ -35,7 +35,8 @@ class ProcessStep {
   /// @param variances [m^2, rad^2] of the centre's pose.
   ProcessStep(const ProcessConfig& config, const Vector6d& variances);
 
-  /// The same with a wide component of its own, for an object that may have gone anywhere near by while it was not seen.
+  /// The same with a wide component of its own, for an object that may have gone anywhere near by while it was not
+  /// seen.
   /// @param share in (0, 1) of the wide component. @param variances [m^2, rad^2]; narrower ones than now are ignored.
   void allowJump(double share, const Vector6d& variances);
 

@@ -22,8 +22,8 @@ struct CoveredPixel {
   float depth;             ///< [m] along the optical axis
 };
 
-/// Renders one mesh. Holds scratch memory: use one renderer per thread. After warm-up nothing is allocated unless the image
-/// grows or the object covers more pixels than ever before. Touches only the region that the object covers.
+/// Renders one mesh. Holds scratch memory: use one renderer per thread. After warm-up nothing is allocated unless the
+/// image grows or the object covers more pixels than ever before. Touches only the region that the object covers.
 class DepthRenderer {
  public:
   /// The mesh is copied into a layout of its own; triangles are two-sided, indices must be valid.
@@ -52,7 +52,8 @@ class DepthRenderer {
   std::vector<float> object_x_, object_y_, object_z_;  // vertices, object frame
   std::vector<float> u_, v_, z_;                       // the same, projected for this pose
   std::vector<std::array<std::uint32_t, 3>> triangles_;
-  bool faces_outward_ = false;  // closed surface, all triangles counter-clockwise from outside: back faces are never seen
+  bool faces_outward_ =
+      false;  // closed surface, all triangles counter-clockwise from outside: back faces are never seen
   Pose T_camera_object_ = Pose::Identity();
   PinholeCamera camera_;
 

@@ -15,7 +15,8 @@
 
 namespace depth_object_tracker {
 
-/// Follows one rigid object. Not thread-safe: one thread calls at a time. Never throws after construction but std::bad_alloc.
+/// Follows one rigid object. Not thread-safe: one thread calls at a time. Never throws after construction but
+/// std::bad_alloc.
 class ObjectTracker {
  public:
   /// @throws std::invalid_argument when the mesh has no triangle or a parameter is out of range.
@@ -32,13 +33,15 @@ class ObjectTracker {
   void reset();
 
   /// Moves the estimate to the image's stamp.
-  /// @param stamp_s seconds of the image's exposure; equal to the last one: ignored (counted); before it: see design, time jump.
+  /// @param stamp_s seconds of the image's exposure; equal to the last one: ignored (counted); before it: see design,
+  /// time jump.
   /// @param control motion of a held object since the previous image; nullopt = the object is not held.
   /// The view is read only during the call.
   TrackerResult update(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s,
                        const std::optional<ControlInput>& control = std::nullopt);
 
-  /// The weighted particles of the last update (mesh origin, weights sum to 1, before resampling). Empty before the first.
+  /// The weighted particles of the last update (mesh origin, weights sum to 1, before resampling). Empty before the
+  /// first.
   ParticlePoses particles() const;
 
   /// Mean occlusion probability over the particles at working resolution. Empty before the first update.

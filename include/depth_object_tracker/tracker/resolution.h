@@ -22,8 +22,8 @@ class ResolutionChooser {
   int factor_ = 0;  ///< 0 = not chosen yet
 };
 
-/// Likelihood exponent gamma: neighbouring pixels of a structured-light camera share their error over a few pixels, so a pixel of
-/// a grid n times coarser counts n^2 times as much, until it counts fully.
+/// Likelihood exponent gamma: neighbouring pixels of a structured-light camera share their error over a few pixels, so
+/// a pixel of a grid n times coarser counts n^2 times as much, until it counts fully.
 double likelihoodExponent(const FilterConfig& config, int factor);
 
 /// Variances [m^2, rad^2] of an initial pose that comes without covariance.

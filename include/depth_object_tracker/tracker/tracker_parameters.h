@@ -14,8 +14,8 @@ namespace depth_object_tracker {
 using ParameterValue = std::variant<bool, int, double, std::string>;
 
 struct ParameterInfo {
-  std::string name;           ///< key, with its unit as suffix
-  std::string valid_range;    ///< "[0.001, 10]" or "informed | process"
+  std::string name;         ///< key, with its unit as suffix
+  std::string valid_range;  ///< "[0.001, 10]" or "informed | process"
   std::string description;
   ParameterValue default_value;
 };
