@@ -8,6 +8,7 @@
 #include "depth_object_tracker/tracker/pose_search.h"
 #include "depth_object_tracker/tracker/resolution.h"
 #include "depth_object_tracker/tracker/status_monitor.h"
+#include "depth_object_tracker/tracker/tracker_parameters.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -46,13 +47,18 @@ const ObjectModel& checked(const ObjectModel& object) {
   return object;
 }
 
+const TrackerConfig& checked(const TrackerConfig& config) {
+  validateTrackerConfig(config);
+  return config;
+}
+
 }  // namespace
 
 class ObjectTracker::Implementation {
  public:
   Implementation(ObjectModel object_model, const TrackerConfig& tracker_config)
       : object(std::move(object_model)),
-        config(tracker_config),
+        config(checked(tracker_config)),
         centre_object(surfaceCentroid(checked(object).mesh)),
         diameter_m(diameter(object.mesh)),
         likelihood(object.mesh, centre_object, config.pixel, config.occlusion, config.filter.num_particles,
