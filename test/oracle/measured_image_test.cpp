@@ -86,6 +86,28 @@ TEST_P(WithModel, RatiosEqualTheReferenceFarFromTheReading) {
   }
 }
 
+TEST(MeasuredImage, ReadingsFarInFrontCountAsOccludedAtLeastHalf) {
+  PixelModelConfig config;
+  config.min_p_occluded_in_front = 0.5;
+  const RowImage row({1.0f}, config);
+  const auto stddev = static_cast<float>(surfaceNoiseStddev(1.0, config));
+  const MeasuredPixel& pixel = row.pixel(0);
+  for (const float p : {0.0f, 0.1f, 0.25f, 0.5f, 0.9f, 1.0f}) {
+    float last = p;
+    for (float t = -20.0f; t < 60.0f; t += 0.25f) {
+      const float believed = row.image().believedOcclusion(p, pixel, 1.0f + t * stddev);
+      ASSERT_GE(believed, last - 1e-6f) << "the farther in front, the more";
+      if (t <= 1.0f) {
+        ASSERT_NEAR(believed, p, 1e-2f) << "readings on or behind the surface are left alone";
+      }
+      last = believed;
+    }
+    EXPECT_NEAR(last, std::max(p, 0.5f), 1e-6f);
+  }
+  config.min_p_occluded_in_front = 0.0;
+  EXPECT_EQ(RowImage({1.0f}, config).image().believedOcclusion(0.1f, pixel, 2.0f), 0.1f) << "0 turns it off";
+}
+
 TEST(MeasuredImage, ReadingsWithoutInformationAreMarked) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
   const RowImage row({0.0f, nan, infinity, -infinity, -0.5f, 6.01f, 1e9f, 5.99f, 1.0f}, PixelModelConfig());

@@ -110,6 +110,7 @@ class OcclusionPosterior : public testing::TestWithParam<OccluderModel> {
   OcclusionPosterior() : grid_(makeSamplingGrid(makeCamera(kPixels, 1, 10.0), 1)) {
     pixel_.occluder_model = GetParam();
     pixel_.edge_stddev_px = 0.0;
+    pixel_.min_p_occluded_in_front = 0.0;
     chain_.initial_p_occluded = 0.4;  // not the stationary value: the first step of the chain must show
     likelihood_.emplace(makePlate(kHalfWidth), Eigen::Vector3d::Zero(), pixel_, chain_, 2, 1);
   }

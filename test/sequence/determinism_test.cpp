@@ -20,10 +20,10 @@ std::string bytesOfRun(int num_threads, std::uint64_t seed, Proposal proposal) {
   TrackingRun run(scene, truth, config);
   std::string bytes;
   const auto append = [&](const void* data, std::size_t size) { bytes.append(static_cast<const char*>(data), size); };
-  for (int k = 0; k < 16; ++k) {
+  for (int k = 0; k < 11; ++k) {
     truth = movedBy(truth, 0.2 / 30.0, 0, 0.1 / 30.0, {0, 0.02, 0});
     // A board comes in between, so that occlusion, search and reappearance take part.
-    const std::optional<Board> board = k >= 8 && k < 12 ? std::make_optional(Board{200, 440, 0.5}) : std::nullopt;
+    const std::optional<Board> board = k >= 5 && k < 8 ? std::make_optional(Board{200, 440, 0.5}) : std::nullopt;
     const TrackerResult result = run.step(truth, board);
     append(result.T_camera_object.matrix().data(), 16 * sizeof(double));
     append(result.covariance.data(), 36 * sizeof(double));
