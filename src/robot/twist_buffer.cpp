@@ -56,7 +56,8 @@ std::optional<TwistSample> TwistBuffer::mean(double from_s, double to_s) const {
     previous_s = sample.stamp_s;
   }
   if (!samples_.empty()) {  // until the next one comes, the newest holds
-    sum.add(samples_.back(), std::max(samples_.back().stamp_s, from_s), std::min(samples_.back().stamp_s + max_age_s_, to_s));
+    sum.add(samples_.back(), std::max(samples_.back().stamp_s, from_s),
+            std::min(samples_.back().stamp_s + max_age_s_, to_s));
   }
   if (sum.duration_s < kMinCoveredShare * (to_s - from_s)) return std::nullopt;
   return TwistSample{to_s, sum.linear / sum.duration_s, sum.angular / sum.duration_s};

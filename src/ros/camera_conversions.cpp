@@ -37,11 +37,12 @@ std::string findReadoutProblem(const sensor_msgs::CameraInfo& info, const Readou
   if (readout.x + readout.width > info.width || readout.y + readout.height > info.height) {
     problem << "camera_info's roi (offset " << readout.x << ", " << readout.y << ", size " << readout.width << "x"
             << readout.height << ") reaches beyond its full size " << info.width << "x" << info.height;
-  } else if (!sizeFits(width, readout.width, readout.binning_x) || !sizeFits(height, readout.height, readout.binning_y)) {
+  } else if (!sizeFits(width, readout.width, readout.binning_x) ||
+             !sizeFits(height, readout.height, readout.binning_y)) {
     problem << "the image is " << width << "x" << height << ", but camera_info describes "
-            << readout.width / readout.binning_x << "x" << readout.height / readout.binning_y << " (full size " << info.width
-            << "x" << info.height << (readout.is_full ? "" : ", roi") << ", binning " << readout.binning_x << "x"
-            << readout.binning_y << "): both must come from the same camera and mode";
+            << readout.width / readout.binning_x << "x" << readout.height / readout.binning_y << " (full size "
+            << info.width << "x" << info.height << (readout.is_full ? "" : ", roi") << ", binning " << readout.binning_x
+            << "x" << readout.binning_y << "): both must come from the same camera and mode";
   }
   return problem.str();
 }
@@ -64,7 +65,8 @@ Intrinsics intrinsicsForTopic(const std::string& image_topic) {
   return last_name.find("rect") != std::string::npos ? Intrinsics::kRectified : Intrinsics::kRaw;
 }
 
-CameraResult cameraFromInfo(const sensor_msgs::CameraInfo& info, Intrinsics intrinsics, int image_width, int image_height) {
+CameraResult cameraFromInfo(const sensor_msgs::CameraInfo& info, Intrinsics intrinsics, int image_width,
+                            int image_height) {
   CameraResult result;
   const Readout readout = readoutOf(info);
   result.problem = findReadoutProblem(info, readout, image_width, image_height);
@@ -79,8 +81,8 @@ CameraResult cameraFromInfo(const sensor_msgs::CameraInfo& info, Intrinsics intr
   result.camera.cy = (full.cy - static_cast<double>(readout.y)) / static_cast<double>(readout.binning_y);
   result.problem = result.camera.findProblem();
   if (!result.problem.empty()) {
-    result.problem = std::string("camera_info's ") + (intrinsics == Intrinsics::kRaw ? "K" : "P") + " is not usable: " +
-                     result.problem;
+    result.problem = std::string("camera_info's ") + (intrinsics == Intrinsics::kRaw ? "K" : "P") +
+                     " is not usable: " + result.problem;
   }
   return result;
 }

@@ -33,8 +33,8 @@ std::string HeldMotion::addTwist(const geometry_msgs::TwistStamped& twist, const
       sample.linear_m_s = (R_camera_frame * sample.linear_m_s).eval();
       sample.angular_rad_s = (R_camera_frame * sample.angular_rad_s).eval();
     } catch (const tf2::TransformException& error) {
-      return "control_twist is ignored: tf cannot turn it from frame '" + frame + "' to the camera's frame '" + camera_frame +
-             "': " + error.what();
+      return "control_twist is ignored: tf cannot turn it from frame '" + frame + "' to the camera's frame '" +
+             camera_frame + "': " + error.what();
     }
   }
   return twists_.add(sample) ? "" : "control_twist is ignored: it holds a number that is not finite";
@@ -42,7 +42,7 @@ std::string HeldMotion::addTwist(const geometry_msgs::TwistStamped& twist, const
 
 bool HeldMotion::awaitsTwist(double stamp_s) const {
   const auto newest_s = twists_.newestStamp();
-  return followsTwist() && newest_s && *newest_s < stamp_s && *newest_s > stamp_s - kLiveTwistAgeS;
+  return followsTwist() && newest_s && *newest_s<stamp_s&& * newest_s> stamp_s - kLiveTwistAgeS;
 }
 
 std::optional<ControlInput> HeldMotion::control(double from_s, double to_s) const {

@@ -23,14 +23,14 @@ std::string findSizeProblem(const sensor_msgs::Image& image, std::size_t pixel_b
   const std::size_t row_bytes = std::size_t{image.width} * pixel_bytes;
   const std::size_t promised_bytes = std::size_t{image.step} * image.height;
   if (image.width == 0 || image.height == 0 || image.width > kMaxImageSide || image.height > kMaxImageSide) {
-    problem << "the image's header gives its size as " << image.width << "x" << image.height << "; each side must be in [1, "
-            << kMaxImageSide << "]";
+    problem << "the image's header gives its size as " << image.width << "x" << image.height
+            << "; each side must be in [1, " << kMaxImageSide << "]";
   } else if (image.step < row_bytes) {
     problem << "the image's header gives step=" << image.step << " bytes, but a row of " << image.width << " pixels in "
             << image.encoding << " takes " << row_bytes;
   } else if (image.data.size() < promised_bytes) {
-    problem << "the image carries " << image.data.size() << " bytes, but its header promises " << promised_bytes << " (height "
-            << image.height << " * step " << image.step << ")";
+    problem << "the image carries " << image.data.size() << " bytes, but its header promises " << promised_bytes
+            << " (height " << image.height << " * step " << image.step << ")";
   }
   return problem.str();
 }
@@ -48,8 +48,9 @@ ImageViewResult viewDepthImage(const sensor_msgs::Image& image) {
   ImageViewResult result;
   const auto type = pixelType(image.encoding);
   if (!type) {
-    result.problem = "the image's encoding is '" + image.encoding +
-                     "'; a depth image must be 16UC1 or mono16 (millimetres) or 32FC1 (metres): is this the depth topic?";
+    result.problem =
+        "the image's encoding is '" + image.encoding +
+        "'; a depth image must be 16UC1 or mono16 (millimetres) or 32FC1 (metres): is this the depth topic?";
     return result;
   }
   const bool is_uint16 = *type == DepthImageView::PixelType::kUint16;

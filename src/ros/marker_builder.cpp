@@ -49,9 +49,11 @@ void MarkerBuilder::setObject(const BuiltTracker& object) {
   }
 }
 
-visualization_msgs::MarkerArrayPtr MarkerBuilder::build(const std_msgs::Header& header, const TrackerResult& result) const {
+visualization_msgs::MarkerArrayPtr MarkerBuilder::build(const std_msgs::Header& header,
+                                                        const TrackerResult& result) const {
   auto message = boost::make_shared<visualization_msgs::MarkerArray>();
-  const bool is_shown = result.has_pose && result.state != TrackerState::kLost && result.state != TrackerState::kUninitialized;
+  const bool is_shown =
+      result.has_pose && result.state != TrackerState::kLost && result.state != TrackerState::kUninitialized;
   if (is_shown) {
     message->markers.push_back(template_);
     message->markers[0].pose = toPoseMessage(result.T_camera_object);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/ros/object_source.h"
 
-#include <nlohmann/json.hpp>
 #include <ros/package.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -25,7 +25,8 @@ ObjectDescription describe(const ObjectSource& source) {
     return loadObjectDescription(resolveMeshUri(source.object_file, findPackage));
   }
   if (source.mesh.empty()) {
-    throw std::invalid_argument("no object: set ~object_file (an object's YAML) or ~mesh (a mesh file), or call ~load_object");
+    throw std::invalid_argument(
+        "no object: set ~object_file (an object's YAML) or ~mesh (a mesh file), or call ~load_object");
   }
   if (!std::isfinite(source.mesh_scale) || source.mesh_scale <= 0.0) {
     throw std::invalid_argument("mesh_scale is " + std::to_string(source.mesh_scale) +
@@ -41,7 +42,9 @@ ObjectDescription describe(const ObjectSource& source) {
 /// The object's name is its tf frame, and tf frames are words.
 std::string frameName(const std::string& name, const std::string& mesh_file) {
   std::string frame = name.empty() ? std::filesystem::path(mesh_file).stem().string() : name;
-  const auto is_odd = [](unsigned char letter) { return std::isalnum(letter) == 0 && letter != '_' && letter != '-' && letter != '.'; };
+  const auto is_odd = [](unsigned char letter) {
+    return std::isalnum(letter) == 0 && letter != '_' && letter != '-' && letter != '.';
+  };
   std::replace_if(frame.begin(), frame.end(), is_odd, '_');
   return frame.empty() ? "object" : frame;
 }
@@ -65,7 +68,9 @@ Pose poseFromNumbers(const std::vector<double>& rotation, const std::vector<doub
 
 }  // namespace
 
-std::string findPackage(const std::string& package) { return ros::package::getPath(package); }
+std::string findPackage(const std::string& package) {
+  return ros::package::getPath(package);
+}
 
 BuiltTracker buildTracker(const ObjectSource& source, const TrackerConfig& config) {
   BuiltTracker built;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/ros/overlay.h"
 
+#include <sensor_msgs/image_encodings.h>
 #include <Eigen/Geometry>
 #include <boost/make_shared.hpp>
-#include <sensor_msgs/image_encodings.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ const Color kOutline(1.0f, 1.0f, 1.0f);
 constexpr float kTintShare = 0.55f;
 constexpr float kShadingReachPerM = 3.0f;  // pixels per metre of depth
 constexpr int kMinShadingReach = 2, kMaxShadingReach = 8;
-constexpr float kDepthEdge = 0.04f;        // of the depth: beyond it neighbours are on different surfaces
+constexpr float kDepthEdge = 0.04f;  // of the depth: beyond it neighbours are on different surfaces
 
 /// Depth as floats with the range that the grey scale spans.
 struct Scene {
@@ -71,10 +71,12 @@ float slope(float before, float after, float centre, int pixels) {
 /// three lines.
 Eigen::Vector2f slopesAt(const Scene& scene, int row, int col) {
   const float z = scene.at(row, col);
-  const int reach = std::clamp(static_cast<int>(std::lround(kShadingReachPerM * z)), kMinShadingReach, kMaxShadingReach);
+  const int reach =
+      std::clamp(static_cast<int>(std::lround(kShadingReachPerM * z)), kMinShadingReach, kMaxShadingReach);
   const auto clampRow = [&](int r) { return std::clamp(r, 0, scene.height - 1); };
   const auto clampCol = [&](int c) { return std::clamp(c, 0, scene.width - 1); };
-  const int r0 = clampRow(row - reach), r1 = clampRow(row + reach), c0 = clampCol(col - reach), c1 = clampCol(col + reach);
+  const int r0 = clampRow(row - reach), r1 = clampRow(row + reach), c0 = clampCol(col - reach),
+            c1 = clampCol(col + reach);
   Eigen::Vector2f sum = Eigen::Vector2f::Zero();
   for (int side = -reach / 2; side <= reach / 2; side += std::max(1, reach / 2)) {
     const int r = clampRow(row + side), c = clampCol(col + side);
@@ -88,7 +90,8 @@ Eigen::Vector2f slopesAt(const Scene& scene, int row, int col) {
 float shade(const Scene& scene, int row, int col) {
   const float z = scene.at(row, col);
   const Eigen::Vector2f slopes = slopesAt(scene, row, col);
-  const Eigen::Vector3f normal = Eigen::Vector3f(slopes.x() * scene.fx / z, slopes.y() * scene.fy / z, -1.0f).normalized();
+  const Eigen::Vector3f normal =
+      Eigen::Vector3f(slopes.x() * scene.fx / z, slopes.y() * scene.fy / z, -1.0f).normalized();
   static const Eigen::Vector3f kToLamp = Eigen::Vector3f(-0.4f, -0.6f, -0.7f).normalized();
   return std::max(0.0f, normal.dot(kToLamp));
 }
@@ -98,21 +101,25 @@ Color greyOf(const Scene& scene, int row, int col) {
   if (!std::isfinite(z)) return kNoReading;
   const float nearness = (1.0f / z - 1.0f / scene.far_m) / (1.0f / scene.near_m - 1.0f / scene.far_m);
   const float level = 0.30f + 0.45f * std::clamp(nearness, 0.0f, 1.0f);
-  return Color::Constant(std::clamp(level * (0.35f + 1.0f * shade(scene, row, col)), 0.0f, 1.0f)) + Color(0.02f, 0.005f, 0.0f);
+  return Color::Constant(std::clamp(level * (0.35f + 1.0f * shade(scene, row, col)), 0.0f, 1.0f)) +
+         Color(0.02f, 0.005f, 0.0f);
 }
 
 /// Occlusion probability at a full-resolution pixel, between the cells around it that have one; 0 where none has.
 float occlusionAt(const OcclusionMap& map, int row, int col) {
   if (map.p_occluded.empty()) return 0.0f;
   const float factor = static_cast<float>(map.grid.factor);
-  const float r = static_cast<float>(row - map.grid.offset()) / factor, c = static_cast<float>(col - map.grid.offset()) / factor;
+  const float r = static_cast<float>(row - map.grid.offset()) / factor,
+              c = static_cast<float>(col - map.grid.offset()) / factor;
   const int r0 = static_cast<int>(std::floor(r)), c0 = static_cast<int>(std::floor(c));
   float sum = 0.0f, weight_sum = 0.0f;
   for (int cell_row = r0; cell_row <= r0 + 1; ++cell_row) {
     for (int cell_col = c0; cell_col <= c0 + 1; ++cell_col) {
-      if (cell_row < 0 || cell_col < 0 || cell_row >= map.grid.camera.height || cell_col >= map.grid.camera.width) continue;
+      if (cell_row < 0 || cell_col < 0 || cell_row >= map.grid.camera.height || cell_col >= map.grid.camera.width)
+        continue;
       const float p = map.p_occluded[static_cast<std::size_t>(cell_row) * map.grid.camera.width + cell_col];
-      const float weight = (1.0f - std::abs(r - static_cast<float>(cell_row))) * (1.0f - std::abs(c - static_cast<float>(cell_col)));
+      const float weight =
+          (1.0f - std::abs(r - static_cast<float>(cell_row))) * (1.0f - std::abs(c - static_cast<float>(cell_col)));
       if (!std::isfinite(p)) continue;
       sum += (weight + 1e-3f) * p;
       weight_sum += weight + 1e-3f;
@@ -124,13 +131,16 @@ float occlusionAt(const OcclusionMap& map, int row, int col) {
 /// The object's pixels, with what an outline asks for.
 class Mask {
  public:
-  Mask(const std::vector<float>& rendered, int width, int height) : rendered_(rendered), width_(width), height_(height) {}
+  Mask(const std::vector<float>& rendered, int width, int height)
+      : rendered_(rendered), width_(width), height_(height) {}
 
   bool isObject(int row, int col) const {
-    return row >= 0 && col >= 0 && row < height_ && col < width_ && rendered_[static_cast<std::size_t>(row) * width_ + col] > 0.0f;
+    return row >= 0 && col >= 0 && row < height_ && col < width_ &&
+           rendered_[static_cast<std::size_t>(row) * width_ + col] > 0.0f;
   }
 
-  /// How much of the pixel an outline of about 2 pixels, drawn around the object, covers: soft edges look drawn by hand.
+  /// How much of the pixel an outline of about 2 pixels, drawn around the object, covers: soft edges look drawn by
+  /// hand.
   float outlineShare(int row, int col) const {
     if (isObject(row, col)) return 0.0f;
     int touching = 0;
@@ -138,7 +148,8 @@ class Mask {
       for (int dc = -1; dc <= 1; ++dc) touching += isObject(row + dr, col + dc) ? 1 : 0;
     }
     if (touching > 0) return 1.0f;
-    const bool is_second = isObject(row - 2, col) || isObject(row + 2, col) || isObject(row, col - 2) || isObject(row, col + 2);
+    const bool is_second =
+        isObject(row - 2, col) || isObject(row + 2, col) || isObject(row, col - 2) || isObject(row, col + 2);
     return is_second ? 0.4f : 0.0f;
   }
 
@@ -163,8 +174,8 @@ sensor_msgs::ImagePtr makeImage(int width, int height) {
 
 }  // namespace
 
-sensor_msgs::ImagePtr drawOverlay(const DepthImageView& depth, const PinholeCamera& camera, const std::vector<float>& rendered,
-                                  const OcclusionMap& occlusion) {
+sensor_msgs::ImagePtr drawOverlay(const DepthImageView& depth, const PinholeCamera& camera,
+                                  const std::vector<float>& rendered, const OcclusionMap& occlusion) {
   const Scene scene = makeScene(depth, camera);
   const bool has_object = rendered.size() == scene.depth_m.size();
   const Mask mask(rendered, scene.width, scene.height);

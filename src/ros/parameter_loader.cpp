@@ -13,11 +13,16 @@ namespace {
 
 std::optional<ParameterValue> toParameterValue(XmlRpc::XmlRpcValue& value) {
   switch (value.getType()) {
-    case XmlRpc::XmlRpcValue::TypeBoolean: return ParameterValue(static_cast<bool>(value));
-    case XmlRpc::XmlRpcValue::TypeInt: return ParameterValue(static_cast<int>(value));
-    case XmlRpc::XmlRpcValue::TypeDouble: return ParameterValue(static_cast<double>(value));
-    case XmlRpc::XmlRpcValue::TypeString: return ParameterValue(static_cast<std::string>(value));
-    default: return std::nullopt;
+    case XmlRpc::XmlRpcValue::TypeBoolean:
+      return ParameterValue(static_cast<bool>(value));
+    case XmlRpc::XmlRpcValue::TypeInt:
+      return ParameterValue(static_cast<int>(value));
+    case XmlRpc::XmlRpcValue::TypeDouble:
+      return ParameterValue(static_cast<double>(value));
+    case XmlRpc::XmlRpcValue::TypeString:
+      return ParameterValue(static_cast<std::string>(value));
+    default:
+      return std::nullopt;
   }
 }
 
@@ -41,14 +46,16 @@ void checkRange(const ros::NodeHandle& node, const std::string& key, double valu
   problems.push_back(problem.str());
 }
 
-/// Adds the parameters of one map. Files have them below a key `tracker`, which may so stand below the name `tracker` again.
+/// Adds the parameters of one map. Files have them below a key `tracker`, which may so stand below the name `tracker`
+/// again.
 void addParameters(XmlRpc::XmlRpcValue& map, const std::string& name, TrackerParameters& parameters) {
   if (map.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
     parameters.problems.push_back("parameter '" + name + "' must be a map from parameter names to values");
     return;
   }
   const std::string below = "tracker";
-  if (map.hasMember(below)) addParameters(map[below], name + "/" + below, parameters);  // first: what stands nearer wins
+  if (map.hasMember(below))
+    addParameters(map[below], name + "/" + below, parameters);  // first: what stands nearer wins
   for (auto& [key, entry] : map) {
     if (key == below) continue;
     const auto parameter = toParameterValue(entry);

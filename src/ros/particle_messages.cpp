@@ -3,10 +3,10 @@
 
 #include "depth_object_tracker/ros/message_conversions.h"
 
-#include <boost/make_shared.hpp>
 #include <sensor_msgs/distortion_models.h>
 #include <sensor_msgs/image_encodings.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
+#include <boost/make_shared.hpp>
 
 #include <cstring>
 
@@ -36,8 +36,8 @@ sensor_msgs::PointCloud2Ptr toPointCloud(const ParticlePoses& particles, const s
   message->is_dense = true;
   sensor_msgs::PointCloud2Modifier modifier(*message);
   using Field = sensor_msgs::PointField;
-  modifier.setPointCloud2Fields(4, "x", 1, Field::FLOAT32, "y", 1, Field::FLOAT32, "z", 1, Field::FLOAT32, "intensity", 1,
-                                Field::FLOAT32);
+  modifier.setPointCloud2Fields(4, "x", 1, Field::FLOAT32, "y", 1, Field::FLOAT32, "z", 1, Field::FLOAT32, "intensity",
+                                1, Field::FLOAT32);
   modifier.resize(particles.T_camera_object.size());
   sensor_msgs::PointCloud2Iterator<float> point(*message, "x");
   for (std::size_t i = 0; i < particles.T_camera_object.size(); ++i, ++point) {

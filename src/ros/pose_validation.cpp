@@ -16,7 +16,8 @@ constexpr double kRelativeTolerance = 1e-6;  // of the largest entry: rounding o
 std::string findPositionProblem(const Eigen::Vector3d& p) {
   if (p.allFinite() && p.norm() < kMaxPositionM) return "";
   std::ostringstream problem;
-  problem << "the pose's position is (" << p.x() << ", " << p.y() << ", " << p.z() << "); it must be finite and in metres";
+  problem << "the pose's position is (" << p.x() << ", " << p.y() << ", " << p.z()
+          << "); it must be finite and in metres";
   return problem.str();
 }
 
@@ -46,7 +47,8 @@ std::string findCovarianceProblem(const Matrix6d& covariance) {
   }
   const double smallest = Eigen::SelfAdjointEigenSolver<Matrix6d>(covariance, Eigen::EigenvaluesOnly).eigenvalues()(0);
   if (smallest < -tolerance) {
-    problem << "the pose's covariance has the negative eigenvalue " << smallest << ": no distribution has such a covariance";
+    problem << "the pose's covariance has the negative eigenvalue " << smallest
+            << ": no distribution has such a covariance";
   }
   return problem.str();
 }

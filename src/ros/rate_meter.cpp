@@ -4,7 +4,9 @@
 namespace depth_object_tracker {
 namespace {
 
-double seconds(RateMeter::Time from, RateMeter::Time to) { return std::chrono::duration<double>(to - from).count(); }
+double seconds(RateMeter::Time from, RateMeter::Time to) {
+  return std::chrono::duration<double>(to - from).count();
+}
 
 }  // namespace
 

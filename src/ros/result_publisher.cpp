@@ -5,9 +5,9 @@
 #include "depth_object_tracker/ros/overlay.h"
 #include "depth_object_tracker/ros/particle_messages.h"
 
-#include <boost/make_shared.hpp>
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <std_msgs/UInt64.h>
+#include <boost/make_shared.hpp>
 
 namespace depth_object_tracker {
 namespace {
@@ -35,7 +35,8 @@ ResultPublisher::ResultPublisher(ros::NodeHandle private_node, const NodeletOpti
   overlay_ = private_node.advertise<sensor_msgs::Image>("overlay", 2);
   marker_ = private_node.advertise<visualization_msgs::MarkerArray>("marker", 2);
   status_ = private_node.advertise<TrackerStatus>("status", 5, true);
-  if (options.publish_debug) image_address_ = private_node.advertise<std_msgs::UInt64>("debug/last_image_address", 5, true);
+  if (options.publish_debug)
+    image_address_ = private_node.advertise<std_msgs::UInt64>("debug/last_image_address", 5, true);
 }
 
 bool ResultPublisher::isWanted(const ros::Publisher& publisher) {
@@ -49,7 +50,8 @@ void ResultPublisher::setObject(const BuiltTracker& object) {
 }
 
 void ResultPublisher::publish(const FrameOutcome& outcome, const BuiltTracker& object) {
-  if (outcome.is_new_estimate && hasPoseToTell(outcome.result)) publishPose(outcome.header, outcome.result, object.name);
+  if (outcome.is_new_estimate && hasPoseToTell(outcome.result))
+    publishPose(outcome.header, outcome.result, object.name);
   if (!outcome.processed || !object.tracker) return;
   publishParticles(outcome.header, *object.tracker);
   publishOcclusion(outcome.header, *object.tracker);
@@ -59,7 +61,8 @@ void ResultPublisher::publish(const FrameOutcome& outcome, const BuiltTracker& o
   }
 }
 
-void ResultPublisher::publishPose(const std_msgs::Header& header, const TrackerResult& result, const std::string& child_frame) {
+void ResultPublisher::publishPose(const std_msgs::Header& header, const TrackerResult& result,
+                                  const std::string& child_frame) {
   auto pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>();
   pose->header = header;
   pose->pose = toPoseMessage(result.T_camera_object, result.covariance);
@@ -100,8 +103,9 @@ void ResultPublisher::publishOcclusion(const std_msgs::Header& header, const Obj
 void ResultPublisher::publishOverlay(const FrameOutcome& outcome, const ObjectTracker& tracker) {
   if (!isWanted(overlay_)) return;
   const bool shows_object = outcome.is_new_estimate && hasPoseToTell(outcome.result);
-  const auto image = drawOverlay(outcome.depth, outcome.camera, shows_object ? tracker.renderEstimate() : std::vector<float>(),
-                                 tracker.occlusionMap());
+  const auto image =
+      drawOverlay(outcome.depth, outcome.camera, shows_object ? tracker.renderEstimate() : std::vector<float>(),
+                  tracker.occlusionMap());
   image->header = outcome.header;
   overlay_.publish(image);
 }

@@ -13,8 +13,10 @@ namespace {
 Pose fromMessage(const geometry_msgs::Pose& message) {
   Pose pose = Pose::Identity();
   pose.translation() = Eigen::Vector3d(message.position.x, message.position.y, message.position.z);
-  pose.linear() = Eigen::Quaterniond(message.orientation.w, message.orientation.x, message.orientation.y,
-                                     message.orientation.z).normalized().toRotationMatrix();
+  pose.linear() =
+      Eigen::Quaterniond(message.orientation.w, message.orientation.x, message.orientation.y, message.orientation.z)
+          .normalized()
+          .toRotationMatrix();
   return pose;
 }
 
@@ -25,7 +27,9 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-double degrees(double rad) { return rad * 180.0 / M_PI; }
+double degrees(double rad) {
+  return rad * 180.0 / M_PI;
+}
 
 }  // namespace
 
@@ -71,8 +75,8 @@ std::string SimulatorMonitor::statusLine(double period_s) {
     position.push_back(1000.0 * errors_[reported_].position_m);
     rotation.push_back(degrees(errors_[reported_].rotation_rad));
   }
-  std::snprintf(line, sizeof(line), "%-13s error %6.2f mm %6.2f deg (worst %.1f mm)   visible %3.0f %%   %4.1f Hz", state,
-                median(position), median(rotation), *std::max_element(position.begin(), position.end()),
+  std::snprintf(line, sizeof(line), "%-13s error %6.2f mm %6.2f deg (worst %.1f mm)   visible %3.0f %%   %4.1f Hz",
+                state, median(position), median(rotation), *std::max_element(position.begin(), position.end()),
                 status_ ? 100.0 * status_->visible_fraction : 0.0, static_cast<double>(count) / period_s);
   return line;
 }

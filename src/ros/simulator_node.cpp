@@ -2,10 +2,10 @@
 // The simulator nodelet as a node of its own.
 #include "depth_object_tracker/ros/simulator_nodelet.h"
 
-#include <boost/function.hpp>
-#include <boost/make_shared.hpp>
 #include <nodelet/loader.h>
 #include <ros/ros.h>
+#include <boost/function.hpp>
+#include <boost/make_shared.hpp>
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "simulator");
@@ -15,7 +15,8 @@ int main(int argc, char** argv) {
   };
   nodelet::Loader loader(create);
   const nodelet::V_string arguments(argv + 1, argv + argc);
-  if (!loader.load(ros::this_node::getName(), "depth_object_tracker/Simulator", ros::names::getRemappings(), arguments)) return 1;
+  if (!loader.load(ros::this_node::getName(), "depth_object_tracker/Simulator", ros::names::getRemappings(), arguments))
+    return 1;
   ros::spin();
   return 0;
 }

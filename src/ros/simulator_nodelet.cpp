@@ -34,8 +34,9 @@ void SimulatorNodelet::onInit() {
   if (!options_.problems.empty()) return;
   const Scenario scenario = options_.simulation.scenario;
   if (scenario == Scenario::kRobot || scenario == Scenario::kSlip) {
-    NODELET_WARN_STREAM(getName() << ": no robot model is simulated yet: the gripper's commanded motion comes on control_twist, "
-                                     "joint states do not come");
+    NODELET_WARN_STREAM(
+        getName() << ": no robot model is simulated yet: the gripper's commanded motion comes on control_twist, "
+                     "joint states do not come");
   }
   const std::string name_space = ros::names::parentNamespace(getName());
   publisher_.emplace(getNodeHandle(), getPrivateNodeHandle(), name_space, options_.simulation);
@@ -109,8 +110,9 @@ void SimulatorNodelet::reportRate(const ros::Time& now) {
   const double period_s = (now - report_since_).toSec();
   if (period_s < kReportPeriodS) return;
   if (missed_ > kToleratedMissShare * (published_ + missed_)) {
-    NODELET_WARN_STREAM(getName() << ": cannot keep " << options_.rate_hz << " Hz on this machine: " << published_ / period_s
-                                  << " Hz, " << missed_ << " images left out in " << period_s << " s");
+    NODELET_WARN_STREAM(getName() << ": cannot keep " << options_.rate_hz
+                                  << " Hz on this machine: " << published_ / period_s << " Hz, " << missed_
+                                  << " images left out in " << period_s << " s");
   }
   report_since_ = now;
   published_ = missed_ = 0;

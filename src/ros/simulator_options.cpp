@@ -30,7 +30,8 @@ class ParameterReader {
     read(key, "a number", option);
     if (option >= low && option <= high) return;
     std::ostringstream problem;
-    problem << "parameter '" << node_.resolveName(key) << "' is " << option << "; valid range is [" << low << ", " << high << "]";
+    problem << "parameter '" << node_.resolveName(key) << "' is " << option << "; valid range is [" << low << ", "
+            << high << "]";
     problems_.push_back(problem.str());
   }
 

@@ -4,7 +4,6 @@
 #include "depth_object_tracker/ros/message_conversions.h"
 #include "depth_object_tracker/ros/particle_messages.h"
 
-#include <boost/make_shared.hpp>
 #include <depth_object_tracker/Grasp.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
@@ -12,6 +11,7 @@
 #include <geometry_msgs/TwistStamped.h>
 #include <image_transport/image_transport.h>
 #include <sensor_msgs/image_encodings.h>
+#include <boost/make_shared.hpp>
 
 #include <algorithm>
 #include <cstring>
@@ -48,8 +48,8 @@ geometry_msgs::TransformStamped frame(const char* parent, const char* child, con
 
 }  // namespace
 
-SimulatorPublisher::SimulatorPublisher(ros::NodeHandle node, ros::NodeHandle private_node, const std::string& name_space,
-                                       const SimulationConfig& config)
+SimulatorPublisher::SimulatorPublisher(ros::NodeHandle node, ros::NodeHandle private_node,
+                                       const std::string& name_space, const SimulationConfig& config)
     : config_(config) {
   const auto topic = [&](const char* name) { return ros::names::append(name_space, name); };
   camera_ = image_transport::ImageTransport(node).advertiseCamera(topic("camera/depth/image_raw"), 2);
@@ -102,7 +102,8 @@ void SimulatorPublisher::publishImage(const SimulatedFrame& frame, const std_msg
   if (camera_.getNumSubscribers() == 0) return;
   auto info = boost::make_shared<sensor_msgs::CameraInfo>(camera_info_);
   info->header = header;
-  camera_.publish(makeImage(frame.depth_mm, config_.camera, sensor_msgs::image_encodings::TYPE_16UC1.c_str(), header), info);
+  camera_.publish(makeImage(frame.depth_mm, config_.camera, sensor_msgs::image_encodings::TYPE_16UC1.c_str(), header),
+                  info);
 }
 
 void SimulatorPublisher::publishTruth(const SimulatedFrame& frame, const std_msgs::Header& header) {

@@ -9,7 +9,9 @@
 namespace depth_object_tracker {
 namespace {
 
-float finiteFloat(double value) { return std::isfinite(value) ? static_cast<float>(value) : 0.0f; }
+float finiteFloat(double value) {
+  return std::isfinite(value) ? static_cast<float>(value) : 0.0f;
+}
 
 float worstStddev(const Eigen::Matrix3d& covariance) {
   if (!covariance.allFinite()) return 0.0f;

@@ -2,11 +2,11 @@
 // The tracker nodelet as a node of its own.
 #include "depth_object_tracker/ros/tracker_nodelet.h"
 
-#include <boost/function.hpp>
-#include <boost/make_shared.hpp>
 #include <nodelet/loader.h>
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
+#include <boost/function.hpp>
+#include <boost/make_shared.hpp>
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "tracker");
@@ -17,7 +17,8 @@ int main(int argc, char** argv) {
   };
   nodelet::Loader loader(create);
   const nodelet::V_string arguments(argv + 1, argv + argc);
-  if (!loader.load(ros::this_node::getName(), "depth_object_tracker/Tracker", ros::names::getRemappings(), arguments)) return 1;
+  if (!loader.load(ros::this_node::getName(), "depth_object_tracker/Tracker", ros::names::getRemappings(), arguments))
+    return 1;
   ros::spin();
   return 0;
 }

@@ -15,8 +15,8 @@ std::string join(const std::vector<std::string>& sentences) {
   return text;
 }
 
-/// Absolute name of a topic beside the nodelet. A relative one would land in the manager's namespace where the nodelet lives in
-/// the root namespace: roscpp takes a node handle's namespace "/" for "not given".
+/// Absolute name of a topic beside the nodelet. A relative one would land in the manager's namespace where the nodelet
+/// lives in the root namespace: roscpp takes a node handle's namespace "/" for "not given".
 std::string siblingName(const std::string& nodelet_name, const std::string& topic) {
   return ros::names::append(ros::names::parentNamespace(nodelet_name), topic);
 }
@@ -44,7 +44,8 @@ void TrackerNodelet::start() {
   ros::NodeHandle& private_node = getPrivateNodeHandle();
   const NodeletOptions options = loadNodeletOptions(private_node);
   if (options.robot) {
-    NODELET_WARN_STREAM(getName() << ": ~robot: joint states are not used yet; publish the held object's twist on control_twist");
+    NODELET_WARN_STREAM(
+        getName() << ": ~robot: joint states are not used yet; publish the held object's twist on control_twist");
   }
   const std::string image_topic = getNodeHandle().resolveName(siblingName(getName(), "depth/image"));
   const std::string info_topic = findInfoTopic(image_topic);
@@ -76,8 +77,8 @@ BuiltTracker TrackerNodelet::buildFromParameters(const NodeletOptions& options) 
   }
   if (built.tracker) {
     NODELET_INFO_STREAM(getName() << ": object '" << built.name << "' from " << built.mesh_file << ", diameter "
-                                  << built.tracker->diameterM() << " m, " << built.tracker->object().mesh.triangles.size()
-                                  << " triangles");
+                                  << built.tracker->diameterM() << " m, "
+                                  << built.tracker->object().mesh.triangles.size() << " triangles");
   } else {
     NODELET_ERROR_STREAM(getName() << ": " << built.problem);
   }
@@ -116,7 +117,8 @@ void TrackerNodelet::subscribeCommands() {
       ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
 }
 
-void TrackerNodelet::subscribe(const std::string& image_topic, const std::string& info_topic, const std::string& transport) {
+void TrackerNodelet::subscribe(const std::string& image_topic, const std::string& info_topic,
+                               const std::string& transport) {
   matcher_.emplace([this](CameraFrame frame) { worker_->postFrame(std::move(frame)); });
   info_subscriber_ = getNodeHandle().subscribe<sensor_msgs::CameraInfo>(
       info_topic, 4, [this](const sensor_msgs::CameraInfoConstPtr& info) { matcher_->addInfo(info); });
@@ -129,7 +131,8 @@ void TrackerNodelet::subscribe(const std::string& image_topic, const std::string
   try {
     image_subscriber_ = subscribeWith(transport);
   } catch (const image_transport::Exception& error) {
-    NODELET_ERROR_STREAM(getName() << ": ~image_transport '" << transport << "' cannot be used, taking 'raw': " << error.what());
+    NODELET_ERROR_STREAM(getName() << ": ~image_transport '" << transport
+                                   << "' cannot be used, taking 'raw': " << error.what());
     image_subscriber_ = subscribeWith("raw");
   }
   NODELET_INFO_STREAM(getName() << ": depth from '" << image_topic << "', camera_info from '" << info_topic << "'");
@@ -150,9 +153,10 @@ void TrackerNodelet::onGrasp(const GraspConstPtr& message) {
   worker_->post([message, name = getName()](TrackerSession& session) {
     if (!message->object_name.empty() && message->object_name != session.object().name) return;
     if (message->grasped && !message->link.empty()) {
-      ROS_WARN_STREAM(name << ": the motion of link '" << message->link
-                           << "' is not available yet: the object is held by an unknown motion; leave link empty and publish "
-                              "control_twist");
+      ROS_WARN_STREAM(
+          name << ": the motion of link '" << message->link
+               << "' is not available yet: the object is held by an unknown motion; leave link empty and publish "
+                  "control_twist");
     }
     session.setGrasp(message->grasped, message->link);
   });

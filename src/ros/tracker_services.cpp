@@ -68,8 +68,8 @@ bool TrackerServices::initialize(InitializeTracker::Request& request, Initialize
   return true;
 }
 
-/// Why the pose cannot be used: no object, or a frame that tf does not know. Gives tf a moment, by wall clock: simulated time
-/// may stand still.
+/// Why the pose cannot be used: no object, or a frame that tf does not know. Gives tf a moment, by wall clock:
+/// simulated time may stand still.
 std::string TrackerServices::findObstacle(const InitialPose& pose) const {
   struct Answer {
     std::string problem;
@@ -77,7 +77,10 @@ std::string TrackerServices::findObstacle(const InitialPose& pose) const {
   };
   const auto promise = std::make_shared<std::promise<Answer>>();
   const bool posted = worker_.post(
-      [promise](TrackerSession& session) { promise->set_value({session.object().problem, session.cameraFrame()}); }, false);
+      [promise](TrackerSession& session) {
+        promise->set_value({session.object().problem, session.cameraFrame()});
+      },
+      false);
   auto future = promise->get_future();
   if (!posted || future.wait_for(kWorkerWait) != std::future_status::ready) return kStopped;
   const Answer answer = future.get();
@@ -113,7 +116,8 @@ InitialisationOutcome TrackerServices::initialiseAndWait(const InitialPose& pose
   while (!stopping_ && Clock::now() < deadline) {
     if (future.wait_for(kPollPeriod) == std::future_status::ready) return future.get();
   }
-  outcome.message = "not tracking within " + std::to_string(timeout_s) + " s; see ~status for the reason. The pose stays accepted";
+  outcome.message =
+      "not tracking within " + std::to_string(timeout_s) + " s; see ~status for the reason. The pose stays accepted";
   return outcome;
 }
 
@@ -157,8 +161,11 @@ bool TrackerServices::setGrasp(SetGrasp::Request& request, SetGrasp::Response& r
                        "' is not available yet; leave link empty and publish the object's twist on control_twist";
     return true;
   }
-  response.success = worker_.post([request](TrackerSession& session) { session.setGrasp(request.grasped, request.link); });
-  response.message = !response.success ? kStopped : request.grasped ? "held; its motion comes from control_twist" : "not held";
+  response.success =
+      worker_.post([request](TrackerSession& session) { session.setGrasp(request.grasped, request.link); });
+  response.message = !response.success ? kStopped
+                     : request.grasped ? "held; its motion comes from control_twist"
+                                       : "not held";
   return true;
 }
 

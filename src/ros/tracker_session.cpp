@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kTransformTimeout{1};  // tf may come a little after the image
 constexpr double kImageOutageS = 1.0;
-constexpr double kGivenPoseReachS = 0.5;              // an initial pose holds for images about this near to its own
+constexpr double kGivenPoseReachS = 0.5;  // an initial pose holds for images about this near to its own
 
 std::string withoutSlash(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
@@ -111,7 +111,7 @@ void TrackerSession::warnAboutCalibration(const CameraFrame& frame) {
   if (intrinsics_ == Intrinsics::kRaw && !distortion_reported_ && hasDistortion(*frame.info)) {
     distortion_reported_ = true;
     log_.warn("camera_info on '" + info_topic_ + "' has distortion, which is not corrected in the raw image on '" +
-                                image_topic_ + "': poses will be off near the borders; use the rectified topic (image_rect)");
+              image_topic_ + "': poses will be off near the borders; use the rectified topic (image_rect)");
   }
   if (camera_frame_.empty()) {
     log_.warn("neither image nor camera_info names a frame_id: no tf is published");
@@ -131,15 +131,16 @@ std::string TrackerSession::applyPendingPose(double stamp_s) {
     return resolved.problem;
   }
   const InitialisationConfig& defaults = object_.tracker->config().initialisation;
-  resolved.covariance = fillMissingVariances(resolved.covariance, defaults.position_stddev_m, defaults.rotation_stddev_rad);
+  resolved.covariance =
+      fillMissingVariances(resolved.covariance, defaults.position_stddev_m, defaults.rotation_stddev_rad);
   object_.tracker->initialise(resolved.T_camera_object, resolved.covariance);
   pending_pose_.reset();
   given_pose_ = GivenPose{resolved.T_camera_object, resolved.covariance, stamp_s};
   return "";
 }
 
-/// When time jumps back to where the initial pose was given, as with a bag that loops, that pose holds again, and is better than
-/// the one that the object had later.
+/// When time jumps back to where the initial pose was given, as with a bag that loops, that pose holds again, and is
+/// better than the one that the object had later.
 bool TrackerSession::restoreGivenPose(double stamp_s) {
   const bool jumps_back = last_stamp_s_ && stamp_s < *last_stamp_s_;
   if (!jumps_back || !given_pose_ || std::abs(stamp_s - given_pose_->stamp_s) > kGivenPoseReachS) return false;
@@ -150,8 +151,10 @@ bool TrackerSession::restoreGivenPose(double stamp_s) {
 std::optional<ControlInput> TrackerSession::controlFor(double stamp_s) {
   const auto control = held_motion_.control(last_stamp_s_.value_or(stamp_s), stamp_s);
   if (control && !control->has_twist && held_motion_.followsTwist()) {
-    log_.warn("the object is held, but control_twist says nothing about the time of the image: tracking goes on with wider noise; "
-              "check the topic and its stamps");
+    log_.warn(
+        "the object is held, but control_twist says nothing about the time of the image: tracking goes on with wider "
+        "noise; "
+        "check the topic and its stamps");
   }
   return control;
 }
@@ -178,13 +181,15 @@ void TrackerSession::reportInput(FrameOutcome& outcome, bool is_restored) {
   TrackerResult& result = outcome.result;
   const std_msgs::Header& header = outcome.header;
   using Input = TrackerResult::Input;
-  if (result.input == Input::kUsed && result.state != TrackerState::kUninitialized && result.valid_pixel_fraction <= 0.0) {
+  if (result.input == Input::kUsed && result.state != TrackerState::kUninitialized &&
+      result.valid_pixel_fraction <= 0.0) {
     result.input = Input::kNoValidDepth;
   }
   const std::string image = "image on '" + image_topic_ + "' ";
   std::ostringstream text;
   switch (result.input) {
-    case Input::kUsed: return;
+    case Input::kUsed:
+      return;
     case Input::kDuplicateStamp:
       text << image << "ignored: its stamp " << header.stamp
            << " repeats the one before; check the driver, or for two publishers on the topic";
@@ -197,9 +202,12 @@ void TrackerSession::reportInput(FrameOutcome& outcome, bool is_restored) {
       if (ros::Time::isSimTime()) tf_.clear();  // keeps static transforms
       break;
     case Input::kNoValidDepth:
-      text << image << "has no valid depth (all 0, NaN or out of range): is the camera covered, too near, or switched off?";
+      text << image
+           << "has no valid depth (all 0, NaN or out of range): is the camera covered, too near, or switched off?";
       break;
-    case Input::kUnusable: text << image << "cannot be used: " << result.reason; break;
+    case Input::kUnusable:
+      text << image << "cannot be used: " << result.reason;
+      break;
   }
   log_.warn(text.str());
   if (result.input == Input::kNoValidDepth && result.state != TrackerState::kTracking) result.reason = text.str();

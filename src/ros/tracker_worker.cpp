@@ -15,12 +15,15 @@ double secondsSince(std::chrono::steady_clock::time_point time) {
 
 }  // namespace
 
-TrackerWorker::TrackerWorker(const std::string& name, TrackerSession session, ResultPublisher publisher, double control_wait_s)
+TrackerWorker::TrackerWorker(const std::string& name, TrackerSession session, ResultPublisher publisher,
+                             double control_wait_s)
     : log_(name), session_(std::move(session)), publisher_(std::move(publisher)), control_wait_(control_wait_s) {
   publisher_.setObject(session_.object());
 }
 
-TrackerWorker::~TrackerWorker() { stop(); }
+TrackerWorker::~TrackerWorker() {
+  stop();
+}
 
 void TrackerWorker::start() {
   publishStatus(session_.idleResult(0.0));

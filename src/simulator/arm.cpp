@@ -22,8 +22,8 @@ Pose linkPose(const Eigen::Vector3d& from_camera, const Eigen::Vector3d& directi
 
 Arm::Arm(const ArmConfig& config) : config_(config) {
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
-  meshes_[0] = makeCapsule(Eigen::Vector3d::Zero(), config.forearm_m * z, config.wrist_radius_m,
-                           config.elbow_radius_m, 28);
+  meshes_[0] =
+      makeCapsule(Eigen::Vector3d::Zero(), config.forearm_m * z, config.wrist_radius_m, config.elbow_radius_m, 28);
   meshes_[1] = makeCapsule(Eigen::Vector3d::Zero(), config.upper_arm_m * z, config.elbow_radius_m,
                            1.2 * config.elbow_radius_m, 28);
 }

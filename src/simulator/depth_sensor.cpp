@@ -49,7 +49,8 @@ struct DepthReader {
         noise_growth(static_cast<float>(config.noise_growth_per_m)),
         nearest(static_cast<float>(config.noise_nearest_m)),
         steps_metres(static_cast<float>(camera.fx * config.baseline_m / config.disparity_step_px)),
-        min_range(static_cast<float>(config.min_range_m)), max_range(static_cast<float>(config.max_range_m)) {}
+        min_range(static_cast<float>(config.min_range_m)),
+        max_range(static_cast<float>(config.max_range_m)) {}
 
   /// @param noise standard normal. @return [mm], 0 = out of range
   std::uint16_t read(float depth_m, float noise) const {
@@ -90,8 +91,7 @@ void DepthSensor::makeTiles(std::uint64_t seed) {
   for (std::int32_t& value : jitter_tile_) value = offset() * camera_.width + offset();
 }
 
-void DepthSensor::measure(const std::vector<float>& true_depth_m, std::uint64_t frame_number,
-                          std::uint16_t* depth_mm) {
+void DepthSensor::measure(const std::vector<float>& true_depth_m, std::uint64_t frame_number, std::uint16_t* depth_mm) {
   RandomSource random(seed_, kFrameStream + frame_number);
   const auto corner = [&] { return static_cast<int>(random.bits() & (kTileSize - 1)); };
   const int noise_row = corner(), noise_col = corner();

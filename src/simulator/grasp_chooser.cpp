@@ -59,7 +59,8 @@ class CoverageMeter {
 class GraspJudge {
  public:
   GraspJudge(const TriangleMesh& object, const GraspRequest& request)
-      : wanted_(request.wanted_coverage), arm_(request.arm),
+      : wanted_(request.wanted_coverage),
+        arm_(request.arm),
         link_renderers_{DepthRenderer(arm_.meshes()[0]), DepthRenderer(arm_.meshes()[1])} {
     DepthRenderer renderer(object);
     const PinholeCamera camera = makeSamplingGrid(request.camera, kSampling).camera;

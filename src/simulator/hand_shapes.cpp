@@ -108,8 +108,8 @@ std::optional<Hand> makeGripper(const TriangleMesh& object, const GraspFrame& gr
     }
     if (contact <= 0.0 || contact > kMaxHalfOpening) return std::nullopt;
     widest = std::max(widest, contact);
-    const Eigen::Vector3d middle = grasp.centre + 0.5 * (palm_at - kTip) * grasp.approach +
-                                   side * (contact + 0.5 * kFingerDepth) * grasp.closing;
+    const Eigen::Vector3d middle =
+        grasp.centre + 0.5 * (palm_at - kTip) * grasp.approach + side * (contact + 0.5 * kFingerDepth) * grasp.closing;
     appendMesh(hand.mesh, makeBox({palm_at + kTip, kFingerDepth, kFingerWidth}),
                poseOfAxes(grasp.approach, grasp.closing, middle));
   }

@@ -10,7 +10,9 @@ namespace {
 constexpr std::uint64_t kStream = 101;
 
 // Integral over [0, x] of the smooth step 3 y^2 - 2 y^3, x in [0, 1].
-double rampIntegral(double x) { return x * x * x * (1.0 - 0.5 * x); }
+double rampIntegral(double x) {
+  return x * x * x * (1.0 - 0.5 * x);
+}
 
 }  // namespace
 

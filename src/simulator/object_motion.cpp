@@ -21,9 +21,9 @@ std::vector<Eigen::Vector3d> extremeVertices(const TriangleMesh& mesh) {
   RandomSource random(0, kStream);
   for (int k = 0; k < 120; ++k) {
     const Eigen::Vector3f direction = random.unitVector().cast<float>();
-    const auto farthest = std::max_element(mesh.vertices.begin(), mesh.vertices.end(), [&](const auto& a, const auto& b) {
-      return a.dot(direction) < b.dot(direction);
-    });
+    const auto farthest =
+        std::max_element(mesh.vertices.begin(), mesh.vertices.end(),
+                         [&](const auto& a, const auto& b) { return a.dot(direction) < b.dot(direction); });
     extremes.push_back(farthest->cast<double>());
   }
   return extremes;
@@ -32,8 +32,10 @@ std::vector<Eigen::Vector3d> extremeVertices(const TriangleMesh& mesh) {
 }  // namespace
 
 ObjectMotion::ObjectMotion(const TriangleMesh& object, const SimulationConfig& config)
-    : config_(config), T_world_camera_(makeCameraMount(config).T_world_camera()),
-      centroid_(surfaceCentroid(object)), outline_(extremeVertices(object)) {
+    : config_(config),
+      T_world_camera_(makeCameraMount(config).T_world_camera()),
+      centroid_(surfaceCentroid(object)),
+      outline_(extremeVertices(object)) {
   if (config.scenario == Scenario::kSlip) slips_.emplace(config.seed, centroid_);
   const SmoothMotionConfig motion = motionConfig();
   motion_.emplace(motion, [this](const Pose& T_camera_centre) { return isInView(objectAt(T_camera_centre)); });
@@ -80,7 +82,9 @@ Pose ObjectMotion::objectAt(const Pose& T_camera_centre) const {
   return T_camera_centre * Eigen::Translation3d(-centroid_);
 }
 
-Pose ObjectMotion::held(double t_s) { return objectAt(motion_->pose(t_s)); }
+Pose ObjectMotion::held(double t_s) {
+  return objectAt(motion_->pose(t_s));
+}
 
 bool ObjectMotion::isInView(const Pose& T_camera_object) const {
   const PinholeCamera& camera = config_.camera;

@@ -12,8 +12,8 @@ namespace depth_object_tracker {
 namespace {
 
 constexpr std::uint64_t kStream = 105;
-constexpr double kLengthM = 1.6;     // long side: always ends outside of the image
-constexpr double kBoardM = 0.012;    // thickness along the view
+constexpr double kLengthM = 1.6;   // long side: always ends outside of the image
+constexpr double kBoardM = 0.012;  // thickness along the view
 constexpr double kHideMarginPx = 25.0;
 constexpr std::size_t kOutlinePoints = 300;
 
@@ -25,7 +25,9 @@ double smoothStep(double x) {
 }  // namespace
 
 PassingOccluders::PassingOccluders(const SimulationConfig& config, const TriangleMesh& object)
-    : kind_(config.occluders), camera_(config.camera), min_range_m_(config.sensor.min_range_m),
+    : kind_(config.occluders),
+      camera_(config.camera),
+      min_range_m_(config.sensor.min_range_m),
       random_(config.seed, kStream) {
   const std::size_t step = std::max<std::size_t>(1, object.vertices.size() / kOutlinePoints);
   for (std::size_t k = 0; k < object.vertices.size(); k += step) outline_.push_back(object.vertices[k].cast<double>());
@@ -78,8 +80,8 @@ void PassingOccluders::begin(const Pose& T_camera_object) {
 double PassingOccluders::leadingEdge(const Extent& extent, double t_s) const {
   const double image_px = std::hypot(camera_.width, camera_.height);
   const double share = (t_s - event_.start_s) / (event_.end_s - event_.start_s);
-  const double covered = event_.coverage * (extent.along_max - extent.along_min) +
-                         (event_.coverage >= 1.0 ? kHideMarginPx : 0.0);
+  const double covered =
+      event_.coverage * (extent.along_max - extent.along_min) + (event_.coverage >= 1.0 ? kHideMarginPx : 0.0);
   const double in = smoothStep(share / 0.25) * smoothStep((1.0 - share) / 0.25);
   return extent.along_min + covered - (1.0 - in) * 0.6 * image_px;
 }

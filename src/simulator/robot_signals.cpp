@@ -32,7 +32,8 @@ ControlInput RobotSignals::control(double t_s, const Pose& T_camera_hand, const 
     const Pose T_expected = T_camera_hand * previous_->T_camera_hand.inverse() * previous_->T_camera_object;
     Vector6d twist = difference(T_expected, previous_->T_camera_object) / (t_s - previous_->t_s);
     twist = scale_.cwiseProduct(twist) + bias_;
-    twist += stack(config_.twist_noise_m_s * random_.normalVector(), config_.twist_noise_rad_s * random_.normalVector());
+    twist +=
+        stack(config_.twist_noise_m_s * random_.normalVector(), config_.twist_noise_rad_s * random_.normalVector());
     control.linear_m_s = twist.head<3>();
     control.angular_rad_s = twist.tail<3>();
   }

@@ -17,7 +17,7 @@
 namespace depth_object_tracker {
 namespace {
 
-constexpr float kNothingM = 20.0f;  // where no surface is: out of the sensor's range
+constexpr float kNothingM = 20.0f;      // where no surface is: out of the sensor's range
 constexpr double kGraspWindowS = 20.0;  // over so much of the motion a grasp is judged
 constexpr std::uint64_t kInitialPoseStream = 110;
 constexpr std::uint64_t kPusherSeedOffset = 7777;
@@ -28,7 +28,9 @@ const Eigen::Vector3d kRobotShoulderWorld(0.8, 0.9, 0.75);
 class HandAndArm {
  public:
   HandAndArm(const TriangleMesh& object, const GraspRequest& request)
-      : hand_(chooseGrasp(object, request)), arm_(request.arm), hand_renderer_(hand_.mesh),
+      : hand_(chooseGrasp(object, request)),
+        arm_(request.arm),
+        hand_renderer_(hand_.mesh),
         link_renderers_{DepthRenderer(arm_.meshes()[0]), DepthRenderer(arm_.meshes()[1])} {}
 
   template <typename Merge>
@@ -86,8 +88,13 @@ class SceneSimulator::Implementation {
 };
 
 SceneSimulator::Implementation::Implementation(const TriangleMesh& object, const SimulationConfig& config)
-    : config_(config), object_(checked(object)), motion_(object, config), occluders_(config, object),
-      sensor_(config.sensor, config.camera, config.seed), robot_(config.seed), object_renderer_(object) {
+    : config_(config),
+      object_(checked(object)),
+      motion_(object, config),
+      occluders_(config, object),
+      sensor_(config.sensor, config.camera, config.seed),
+      robot_(config.seed),
+      object_renderer_(object) {
   const std::size_t num_pixels = static_cast<std::size_t>(config.camera.width) * config.camera.height;
   background_m_.assign(num_pixels, kNothingM);
   DepthRenderer world(makeStaticWorld(config));
@@ -113,8 +120,7 @@ HandAndArm SceneSimulator::Implementation::makeHolder(HandKind kind, std::uint64
   request.camera = config_.camera;
   request.seed = seed;
   request.wanted_coverage = kind == HandKind::kHuman ? random.uniform(0.1, 0.25) : random.uniform(0.05, 0.15);
-  request.arm.shoulder_camera =
-      T_camera_world * (kind == HandKind::kHuman ? kHumanShoulderWorld : kRobotShoulderWorld);
+  request.arm.shoulder_camera = T_camera_world * (kind == HandKind::kHuman ? kHumanShoulderWorld : kRobotShoulderWorld);
   if (kind == HandKind::kGripper) {
     request.arm.wrist_radius_m = 0.042;
     request.arm.elbow_radius_m = 0.055;
@@ -161,8 +167,7 @@ void SceneSimulator::Implementation::drawHands(double stamp_s) {
   if (presence <= 0.0) return;
   // The pushing hand comes from its shoulder's side and goes back there.
   const Pose T_camera_world = makeCameraMount(config_).T_world_camera().inverse();
-  const Eigen::Vector3d to_shoulder =
-      T_camera_world * kHumanShoulderWorld - frame_.T_camera_object.translation();
+  const Eigen::Vector3d to_shoulder = T_camera_world * kHumanShoulderWorld - frame_.T_camera_object.translation();
   Pose T_camera_pusher = frame_.T_camera_object;
   T_camera_pusher.translation() += 0.7 * (1.0 - presence) * to_shoulder;
   pusher_->draw(T_camera_pusher, config_.camera, merge);
@@ -201,11 +206,17 @@ Pose SceneSimulator::Implementation::roughInitialPose(double error_m, double err
 SceneSimulator::SceneSimulator(const TriangleMesh& object, const SimulationConfig& config)
     : implementation_(std::make_unique<Implementation>(object, config)) {}
 SceneSimulator::~SceneSimulator() = default;
-const SimulatedFrame& SceneSimulator::render(double stamp_s) { return implementation_->render(stamp_s); }
-Pose SceneSimulator::truth(double stamp_s) { return implementation_->truth(stamp_s); }
+const SimulatedFrame& SceneSimulator::render(double stamp_s) {
+  return implementation_->render(stamp_s);
+}
+Pose SceneSimulator::truth(double stamp_s) {
+  return implementation_->truth(stamp_s);
+}
 Pose SceneSimulator::roughInitialPose(double error_m, double error_rad) {
   return implementation_->roughInitialPose(error_m, error_rad);
 }
-const SimulationConfig& SceneSimulator::config() const { return implementation_->config(); }
+const SimulationConfig& SceneSimulator::config() const {
+  return implementation_->config();
+}
 
 }  // namespace depth_object_tracker

@@ -18,7 +18,9 @@ using Json = nlohmann::ordered_json;
 constexpr int kOcclusionEvery = 10;
 constexpr int kObjectId = 1;
 
-double roundedTo(double value, double unit) { return std::round(value / unit) * unit; }
+double roundedTo(double value, double unit) {
+  return std::round(value / unit) * unit;
+}
 
 Json vectorJson(const Eigen::Vector3d& vector, double unit) {
   Json json = Json::array();
@@ -39,11 +41,16 @@ Json poseJson(const Pose& T_camera_object) {
 Json modelsInfo(const ObjectModel& object) {
   const BoundingBox box = boundingBox(object.mesh);
   const Eigen::Vector3d size = box.size();
-  Json info{{"diameter", diameter(object.mesh)}, {"min_x", box.min.x()}, {"min_y", box.min.y()},
-            {"min_z", box.min.z()}, {"size_x", size.x()}, {"size_y", size.y()}, {"size_z", size.z()}};
+  Json info{{"diameter", diameter(object.mesh)},
+            {"min_x", box.min.x()},
+            {"min_y", box.min.y()},
+            {"min_z", box.min.z()},
+            {"size_x", size.x()},
+            {"size_y", size.y()},
+            {"size_z", size.z()}};
   for (const SymmetryAxis& axis : object.symmetries.continuous) {
-    info["symmetries_continuous"].push_back({{"axis", vectorJson(axis.axis, 1e-12)},
-                                             {"offset", vectorJson(axis.offset, 1e-12)}});
+    info["symmetries_continuous"].push_back(
+        {{"axis", vectorJson(axis.axis, 1e-12)}, {"offset", vectorJson(axis.offset, 1e-12)}});
   }
   for (const Pose& pose : object.symmetries.discrete) {
     Json matrix = Json::array();
@@ -163,7 +170,11 @@ SceneWriter::SceneWriter(const std::string& folder, const ObjectModel& object, c
                          const Pose& T_camera_object_init)
     : implementation_(std::make_unique<Implementation>(folder, object, camera, T_camera_object_init)) {}
 SceneWriter::~SceneWriter() = default;
-void SceneWriter::add(const SimulatedFrame& frame) { implementation_->add(frame); }
-void SceneWriter::finish() { implementation_->finish(); }
+void SceneWriter::add(const SimulatedFrame& frame) {
+  implementation_->add(frame);
+}
+void SceneWriter::finish() {
+  implementation_->finish();
+}
 
 }  // namespace depth_object_tracker

@@ -96,8 +96,8 @@ void run(const Options& options) {
   writer.finish();
   const double total_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   std::cout << options.output << ": " << options.frames << " frames of '" << object.name << "', visible "
-            << 100.0 * visible_sum / options.frames << " % on average, " << 100.0 * visible_min
-            << " % at least; " << 1000.0 * render_s / options.frames << " ms a frame, " << total_s << " s in all\n";
+            << 100.0 * visible_sum / options.frames << " % on average, " << 100.0 * visible_min << " % at least; "
+            << 1000.0 * render_s / options.frames << " ms a frame, " << total_s << " s in all\n";
 }
 
 }  // namespace

@@ -47,13 +47,23 @@ PeakSpeeds peakSpeeds(Scenario scenario, Speed speed) {
 
 }  // namespace
 
-Scenario scenarioFromName(const std::string& name) { return fromName(kScenarios, name, "scenario"); }
-Speed speedFromName(const std::string& name) { return fromName(kSpeeds, name, "speed"); }
-Occluders occludersFromName(const std::string& name) { return fromName(kOccluders, name, "occluders"); }
+Scenario scenarioFromName(const std::string& name) {
+  return fromName(kScenarios, name, "scenario");
+}
+Speed speedFromName(const std::string& name) {
+  return fromName(kSpeeds, name, "speed");
+}
+Occluders occludersFromName(const std::string& name) {
+  return fromName(kOccluders, name, "occluders");
+}
 
-const char* scenarioName(Scenario scenario) { return kScenarios[static_cast<std::size_t>(scenario)].first; }
+const char* scenarioName(Scenario scenario) {
+  return kScenarios[static_cast<std::size_t>(scenario)].first;
+}
 
-double peakSpeed(Scenario scenario, Speed speed) { return peakSpeeds(scenario, speed).linear_m_s; }
+double peakSpeed(Scenario scenario, Speed speed) {
+  return peakSpeeds(scenario, speed).linear_m_s;
+}
 
 double peakAngularSpeed(Scenario scenario, Speed speed) {
   return peakSpeeds(scenario, speed).angular_deg_s * M_PI / 180.0;

@@ -14,7 +14,9 @@ constexpr double kMaxFrequencyHz = 0.55;
 constexpr double kMaxRate = 20.0;
 
 // Samples of a window: fine for a short scene, coarser for a long one, where the peak is approached often.
-double sampleStep(double duration_s) { return duration_s > 60.0 ? 0.1 : 1.0 / 60.0; }
+double sampleStep(double duration_s) {
+  return duration_s > 60.0 ? 0.1 : 1.0 / 60.0;
+}
 
 }  // namespace
 
@@ -83,9 +85,8 @@ double SmoothMotion::peak(double rate, bool angular) {
   for (double t = 0.0; t <= config_.duration_s; t += step) {
     const double before = clock_.progress(t), after = clock_.progress(t + kDelta);
     if (after == before) continue;
-    const double distance =
-        angular ? logSo3(rotation(rate * after) * rotation(rate * before).transpose()).norm()
-                : (displacement(rate * after) - displacement(rate * before)).norm();
+    const double distance = angular ? logSo3(rotation(rate * after) * rotation(rate * before).transpose()).norm()
+                                    : (displacement(rate * after) - displacement(rate * before)).norm();
     peak = std::max(peak, distance / kDelta);
   }
   return peak;

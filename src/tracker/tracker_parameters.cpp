@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of parameters: one line per field of TrackerConfig. A new field needs a line here and one in config/tracker.yaml.
+// The table of parameters: one line per field of TrackerConfig. A new field needs a line here and one in
+// config/tracker.yaml.
 #include "depth_object_tracker/tracker/tracker_parameters.h"
 
 #include "parameter_binding.h"
@@ -16,9 +17,11 @@ namespace {
 using Bindings = std::vector<ParameterBinding>;
 
 /// Name and accessor of a field; the key of the parameter is the field's name.
-#define FIELD(group, member) #member, +[](TrackerConfig& config) -> decltype(config.group.member)& { return config.group.member; }
+#define FIELD(group, member) \
+#member, +[](TrackerConfig & config) -> decltype(config.group.member)& { return config.group.member; }
 /// The same, with a key that differs from the field's name.
-#define FIELD_AS(key, group, member) key, +[](TrackerConfig& config) -> decltype(config.group.member)& { return config.group.member; }
+#define FIELD_AS(key, group, member) \
+  key, +[](TrackerConfig& config) -> decltype(config.group.member)& { return config.group.member; }
 
 // clang-format off
 Bindings measurementBindings() {
@@ -120,7 +123,8 @@ const ParameterBinding& findBinding(const std::string& name) {
     const std::size_t distance = editDistance(name.substr(0, 100), binding.info.name);
     if (distance < nearest_distance) nearest = &binding, nearest_distance = distance;
   }
-  throw std::invalid_argument("parameter `" + name + "` is unknown; the nearest known one is `" + nearest->info.name + "`");
+  throw std::invalid_argument("parameter `" + name + "` is unknown; the nearest known one is `" + nearest->info.name +
+                              "`");
 }
 
 }  // namespace
@@ -144,9 +148,9 @@ void validateTrackerConfig(const TrackerConfig& config) {
   for (const ParameterBinding& binding : bindings()) binding.set(scratch, binding.get(config));
   // A chain that alternates has no power of dt: it could not be split into shorter steps.
   if (config.occlusion.p_visible_given_visible <= config.occlusion.p_visible_given_occluded) {
-    throwOutOfRange("p_visible_given_visible", config.occlusion.p_visible_given_visible,
-                    "more than p_visible_given_occluded (" +
-                        formatParameterValue(config.occlusion.p_visible_given_occluded) + ")");
+    throwOutOfRange(
+        "p_visible_given_visible", config.occlusion.p_visible_given_visible,
+        "more than p_visible_given_occluded (" + formatParameterValue(config.occlusion.p_visible_given_occluded) + ")");
   }
 }
 

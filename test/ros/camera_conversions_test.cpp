@@ -18,7 +18,9 @@ void expectCamera(const CameraResult& result, double fx, double fy, double cx, d
   EXPECT_NEAR(result.camera.cy, cy, 1e-9);
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 TEST(CameraConversions, TellsRectifiedTopicsByTheirLastName) {
   EXPECT_EQ(intrinsicsForTopic("/camera/depth/image_rect"), Intrinsics::kRectified);

@@ -5,10 +5,10 @@
 #include "depth_object_tracker/geometry/mesh_loader.h"
 #include "depth_object_tracker/render/depth_renderer.h"
 
-#include <boost/make_shared.hpp>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/image_encodings.h>
+#include <boost/make_shared.hpp>
 
 #include <cmath>
 #include <cstring>
@@ -17,7 +17,9 @@
 
 namespace depth_object_tracker {
 
-inline std::string testMeshFile() { return std::string(PROJECT_SOURCE_FOLDER) + "/meshes/bracket.obj"; }
+inline std::string testMeshFile() {
+  return std::string(PROJECT_SOURCE_FOLDER) + "/meshes/bracket.obj";
+}
 
 inline PinholeCamera testCamera() {
   PinholeCamera camera;
@@ -58,7 +60,8 @@ class TestScene {
 };
 
 /// 16UC1 (millimetres) with `padding_bytes` behind every row.
-inline sensor_msgs::ImagePtr makeUint16Image(const std::vector<float>& depth_m, int width, int height, std::uint32_t padding_bytes = 0) {
+inline sensor_msgs::ImagePtr makeUint16Image(const std::vector<float>& depth_m, int width, int height,
+                                             std::uint32_t padding_bytes = 0) {
   auto image = boost::make_shared<sensor_msgs::Image>();
   image->encoding = sensor_msgs::image_encodings::TYPE_16UC1;
   image->width = static_cast<std::uint32_t>(width);
@@ -67,8 +70,10 @@ inline sensor_msgs::ImagePtr makeUint16Image(const std::vector<float>& depth_m, 
   image->data.assign(std::size_t{image->step} * image->height, 0xAB);
   for (int row = 0; row < height; ++row) {
     for (int col = 0; col < width; ++col) {
-      const auto mm = static_cast<std::uint16_t>(std::lround(1000.0f * depth_m[static_cast<std::size_t>(row) * width + col]));
-      std::memcpy(&image->data[static_cast<std::size_t>(row) * image->step + 2 * static_cast<std::size_t>(col)], &mm, 2);
+      const auto mm =
+          static_cast<std::uint16_t>(std::lround(1000.0f * depth_m[static_cast<std::size_t>(row) * width + col]));
+      std::memcpy(&image->data[static_cast<std::size_t>(row) * image->step + 2 * static_cast<std::size_t>(col)], &mm,
+                  2);
     }
   }
   image->header.frame_id = "camera_depth_optical_frame";

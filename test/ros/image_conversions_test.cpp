@@ -55,7 +55,9 @@ TEST(ImageConversions, ReadsMetresInPlace) {
   expectRamp(result.view);
 }
 
-TEST(ImageConversions, SkipsRowPadding) { expectRamp(viewDepthImage(*makeUint16Image(ramp(), kWidth, kHeight, 6)).view); }
+TEST(ImageConversions, SkipsRowPadding) {
+  expectRamp(viewDepthImage(*makeUint16Image(ramp(), kWidth, kHeight, 6)).view);
+}
 
 TEST(ImageConversions, ReadsTheOtherEndianness) {
   const auto uint16_image = makeUint16Image(ramp(), kWidth, kHeight);

@@ -11,7 +11,9 @@
 namespace depth_object_tracker {
 namespace {
 
-bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool mentions(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 TEST(ObjectSource, BuildsFromAMesh) {
   ObjectSource source;
@@ -66,7 +68,8 @@ class InitFileTest : public testing::Test {
 TEST_F(InitFileTest, ReadsMillimetresAndRowMajorRotation) {
   const auto init = load(R"({"cam_R_m2c": [0, -1, 0, 1, 0, 0, 0, 0, 1], "cam_t_m2c": [10, -20, 600], "obj_id": 1})");
   EXPECT_EQ(init.problem, "");
-  EXPECT_NEAR((init.T_camera_object * Eigen::Vector3d(1.0, 0.0, 0.0) - Eigen::Vector3d(0.01, 0.98, 0.6)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((init.T_camera_object * Eigen::Vector3d(1.0, 0.0, 0.0) - Eigen::Vector3d(0.01, 0.98, 0.6)).norm(), 0.0,
+              1e-9);
 }
 
 TEST_F(InitFileTest, SaysWhatIsWrong) {
@@ -74,8 +77,10 @@ TEST_F(InitFileTest, SaysWhatIsWrong) {
   EXPECT_TRUE(mentions(load("{").problem, "init.json"));
   EXPECT_TRUE(mentions(load(R"({"cam_t_m2c": [1, 2, 3]})").problem, "cam_R_m2c"));
   EXPECT_TRUE(mentions(load(R"({"cam_R_m2c": [1, 0], "cam_t_m2c": [1, 2, 3]})").problem, "9 numbers"));
-  EXPECT_TRUE(mentions(load(R"({"cam_R_m2c": [2, 0, 0, 0, 1, 0, 0, 0, 1], "cam_t_m2c": [1, 2, 3]})").problem, "rotation"));
-  EXPECT_TRUE(mentions(load(R"({"cam_R_m2c": [-1, 0, 0, 0, 1, 0, 0, 0, 1], "cam_t_m2c": [1, 2, 3]})").problem, "rotation"));
+  EXPECT_TRUE(
+      mentions(load(R"({"cam_R_m2c": [2, 0, 0, 0, 1, 0, 0, 0, 1], "cam_t_m2c": [1, 2, 3]})").problem, "rotation"));
+  EXPECT_TRUE(
+      mentions(load(R"({"cam_R_m2c": [-1, 0, 0, 0, 1, 0, 0, 0, 1], "cam_t_m2c": [1, 2, 3]})").problem, "rotation"));
   EXPECT_NE(load(R"({"cam_R_m2c": "x", "cam_t_m2c": [1, 2, 3]})").problem, "");
 }
 

@@ -6,7 +6,9 @@
 namespace depth_object_tracker {
 namespace {
 
-bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool mentions(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 TEST(ParameterLoader, WithoutParametersGivesTheDefaults) {
   const auto parameters = loadTrackerParameters(XmlRpc::XmlRpcValue(), "/tracker/tracker");

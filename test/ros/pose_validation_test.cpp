@@ -21,7 +21,9 @@ geometry_msgs::PoseWithCovariance goodPose() {
   return toPoseMessage(pose, covariance);
 }
 
-bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool mentions(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 TEST(PoseValidation, PassesAGoodPoseUnchanged) {
   const CheckedPose checked = checkPose(goodPose());

@@ -39,7 +39,8 @@ class BadInput : public testing::Test {
 
   static void expectReason(const TrackerStatus& status, const std::vector<std::string>& parts) {
     EXPECT_NE(static_cast<int>(status.state), static_cast<int>(TrackerStatus::TRACKING));
-    for (const auto& part : parts) EXPECT_NE(status.reason.find(part), std::string::npos) << part << " is not in: " << status.reason;
+    for (const auto& part : parts)
+      EXPECT_NE(status.reason.find(part), std::string::npos) << part << " is not in: " << status.reason;
   }
 
   /// A whole second of images without a reading: told at the latest then.
@@ -78,7 +79,8 @@ TEST_F(BadInput, AllZeroDepth) {
 }
 
 TEST_F(BadInput, AllNanDepth) {
-  expectNothingSeen([] { return makeFloatImage(std::vector<float>(320 * 240, std::numeric_limits<float>::quiet_NaN()), 320, 240); });
+  expectNothingSeen(
+      [] { return makeFloatImage(std::vector<float>(320 * 240, std::numeric_limits<float>::quiet_NaN()), 320, 240); });
 }
 
 TEST_F(BadInput, SomeNanAndInfiniteDepth) {
@@ -123,14 +125,16 @@ TEST_F(BadInput, CameraInfoOfAnotherSize) {
   PinholeCamera other = testCamera();
   other.width = 640;
   other.height = 480;
-  expectReason(tracker().send(tracker().goodImage(), makeCameraInfo(other)), {"/camera/depth/camera_info", "640x480", "320x240"});
+  expectReason(tracker().send(tracker().goodImage(), makeCameraInfo(other)),
+               {"/camera/depth/camera_info", "640x480", "320x240"});
 }
 
 TEST_F(BadInput, CameraInfoWithoutFocalLength) {
   nextStamp();
   PinholeCamera uncalibrated = testCamera();
   uncalibrated.fx = uncalibrated.fy = 0.0;
-  expectReason(tracker().send(tracker().goodImage(), makeCameraInfo(uncalibrated)), {"/camera/depth/camera_info", "fx=0"});
+  expectReason(tracker().send(tracker().goodImage(), makeCameraInfo(uncalibrated)),
+               {"/camera/depth/camera_info", "fx=0"});
 }
 
 TEST_F(BadInput, RepeatedStamps) {
@@ -171,7 +175,8 @@ TEST_F(BadInput, QuaternionThatIsNotANumber) {
 
 TEST_F(BadInput, BadPosesOnTheTopic) {
   ros::NodeHandle node;
-  ros::Publisher publisher = node.advertise<geometry_msgs::PoseWithCovarianceStamped>(std::string(kName) + "/initial_pose", 1);
+  ros::Publisher publisher =
+      node.advertise<geometry_msgs::PoseWithCovarianceStamped>(std::string(kName) + "/initial_pose", 1);
   ASSERT_TRUE(waitUntil([&] { return publisher.getNumSubscribers() > 0; }));
   auto pose = goodPose();
   pose.pose.pose.orientation = geometry_msgs::Quaternion();
@@ -194,7 +199,8 @@ TEST_F(BadInput, UnknownFrame) {
 
 TEST_F(BadInput, UnknownFrameOnTheTopic) {
   ros::NodeHandle node;
-  ros::Publisher publisher = node.advertise<geometry_msgs::PoseWithCovarianceStamped>(std::string(kName) + "/initial_pose", 1);
+  ros::Publisher publisher =
+      node.advertise<geometry_msgs::PoseWithCovarianceStamped>(std::string(kName) + "/initial_pose", 1);
   ASSERT_TRUE(waitUntil([&] { return publisher.getNumSubscribers() > 0; }));
   auto pose = goodPose();
   pose.header.frame_id = "lost_frame";
@@ -231,4 +237,6 @@ TEST_F(BadInput, ModesAndTimeoutsThatDoNotExist) {
 }  // namespace
 }  // namespace depth_object_tracker
 
-int main(int argc, char** argv) { return runRosTests(argc, argv, "tracker_bad_input_rostest"); }
+int main(int argc, char** argv) {
+  return runRosTests(argc, argv, "tracker_bad_input_rostest");
+}

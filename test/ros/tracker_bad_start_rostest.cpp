@@ -15,7 +15,8 @@ void expectUninitialized(TrackerHarness& tracker, const std::vector<std::string>
   ASSERT_TRUE(tracker.isReady());
   const TrackerStatus status = tracker.step();
   EXPECT_EQ(static_cast<int>(status.state), static_cast<int>(TrackerStatus::UNINITIALIZED));
-  for (const auto& part : parts) EXPECT_NE(status.reason.find(part), std::string::npos) << part << " is not in: " << status.reason;
+  for (const auto& part : parts)
+    EXPECT_NE(status.reason.find(part), std::string::npos) << part << " is not in: " << status.reason;
   EXPECT_TRUE(tracker.waitForLog(parts));
   EXPECT_FALSE(tracker.initialise());
   EXPECT_EQ(tracker.poses().size(), 0u);
@@ -98,4 +99,6 @@ TEST(BadStart, UnknownImageTransport) {
 }  // namespace
 }  // namespace depth_object_tracker
 
-int main(int argc, char** argv) { return runRosTests(argc, argv, "tracker_bad_start_rostest"); }
+int main(int argc, char** argv) {
+  return runRosTests(argc, argv, "tracker_bad_start_rostest");
+}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A tracker nodelet, loaded through pluginlib by a nodelet loader in the test's process, and a camera that publishes to it.
+// A tracker nodelet, loaded through pluginlib by a nodelet loader in the test's process, and a camera that publishes to
+// it.
 #pragma once
 
 #include "depth_messages.h"
@@ -77,9 +78,9 @@ class TrackerHarness {
     const nodelet::M_string remappings{{ros::names::resolve("depth/image"), "/camera/depth/image_raw"}};
     is_loaded_ = loader_.load(name, "depth_object_tracker/Tracker", remappings, {});
     is_ready_ = is_loaded_ && waitUntil([&] {
-      return image_publisher_.getNumSubscribers() > 0 && info_publisher_.getNumSubscribers() > 0 && statuses_.size() > 0 &&
-             logs_.isConnected();
-    });
+                  return image_publisher_.getNumSubscribers() > 0 && info_publisher_.getNumSubscribers() > 0 &&
+                         statuses_.size() > 0 && logs_.isConnected();
+                });
   }
   ~TrackerHarness() { loader_.unload(name_); }
 

@@ -67,7 +67,8 @@ TEST_F(Outputs, TheLikelihoodReadsTheBufferThatTheCameraPublished) {
   EXPECT_TRUE(waitUntil([&] {
     return addresses.newest() && addresses.newest()->data == reinterpret_cast<std::uintptr_t>(published);
   })) << "read at "
-      << (addresses.newest() ? addresses.newest()->data : 0) << ", published at " << reinterpret_cast<std::uintptr_t>(published);
+      << (addresses.newest() ? addresses.newest()->data : 0) << ", published at "
+      << reinterpret_cast<std::uintptr_t>(published);
 }
 
 TEST_F(Outputs, PlainPublishersAreReadInPlaceToo) {
@@ -79,7 +80,8 @@ TEST_F(Outputs, PlainPublishersAreReadInPlaceToo) {
   image->header.stamp = tracker().stamp();
   publisher.publish(sensor_msgs::ImageConstPtr(image));
   tracker().setStamp(tracker().stamp() + ros::Duration(1.0 / 30.0));
-  const auto next = tracker().goodImage();  // without camera_info of its own the first goes out with the second's arrival
+  const auto next =
+      tracker().goodImage();  // without camera_info of its own the first goes out with the second's arrival
   next->header.stamp = tracker().stamp();
   publisher.publish(sensor_msgs::ImageConstPtr(next));
   EXPECT_TRUE(waitUntil([&] {
@@ -235,4 +237,6 @@ TEST(LazyOutputs, CostlyMessagesAreMadeOnlyForSubscribers) {
 }  // namespace
 }  // namespace depth_object_tracker
 
-int main(int argc, char** argv) { return runRosTests(argc, argv, "tracker_outputs_rostest"); }
+int main(int argc, char** argv) {
+  return runRosTests(argc, argv, "tracker_outputs_rostest");
+}

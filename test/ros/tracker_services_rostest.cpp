@@ -65,7 +65,8 @@ TEST_F(Services, ResetForgetsThePoseUntilToldAnew) {
   EXPECT_TRUE(callService<std_srvs::Trigger>("reset").success);
   ASSERT_TRUE(waitUntil([&] { return state() == TrackerStatus::UNINITIALIZED; }));
   const auto num_poses = tracker().poses().size();
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(static_cast<int>(tracker().step().state), static_cast<int>(TrackerStatus::UNINITIALIZED));
+  for (int i = 0; i < 5; ++i)
+    EXPECT_EQ(static_cast<int>(tracker().step().state), static_cast<int>(TrackerStatus::UNINITIALIZED));
   EXPECT_NE(tracker().status()->reason, "");
   EXPECT_EQ(tracker().poses().size(), num_poses);
   EXPECT_TRUE(tracker().initialise());
@@ -211,4 +212,6 @@ TEST_F(Services, AHeldObjectFollowsItsControlTwist) {
 }  // namespace
 }  // namespace depth_object_tracker
 
-int main(int argc, char** argv) { return runRosTests(argc, argv, "tracker_services_rostest"); }
+int main(int argc, char** argv) {
+  return runRosTests(argc, argv, "tracker_services_rostest");
+}

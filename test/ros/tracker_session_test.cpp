@@ -4,9 +4,9 @@
 #include "depth_messages.h"
 #include "depth_object_tracker/ros/message_conversions.h"
 
-#include <boost/make_shared.hpp>
 #include <gtest/gtest.h>
 #include <tf2/buffer_core.h>
+#include <boost/make_shared.hpp>
 
 #include <thread>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Camera nodelet and tracker nodelet, both through pluginlib in one process: the likelihood reads the camera's own buffers.
+// Camera nodelet and tracker nodelet, both through pluginlib in one process: the likelihood reads the camera's own
+// buffers.
 #include <gtest/gtest.h>
 
 #include "rostest_main.h"
@@ -19,11 +20,14 @@ TEST(ZeroCopy, TheLikelihoodReadsWhatTheCameraNodeletPublished) {
 
   ros::NodeHandle node;
   Recorder<std_msgs::UInt64> addresses(node, "/tracker/debug/last_image_address");
-  // In the publisher's process a subscriber gets the publisher's pointer. Keeping them all, no address is ever used twice.
+  // In the publisher's process a subscriber gets the publisher's pointer. Keeping them all, no address is ever used
+  // twice.
   Recorder<sensor_msgs::Image> images(node, "/camera/depth/image_raw");
   nodelet::Loader loader(false);
-  ASSERT_TRUE(loader.load("/tracker", "depth_object_tracker/Tracker", {{"/depth/image", "/camera/depth/image_raw"}}, {}));
-  ASSERT_TRUE(loader.load("/simulator", "depth_object_tracker/Simulator", {{"/simulator/initial_pose", "/tracker/initial_pose"}}, {}));
+  ASSERT_TRUE(
+      loader.load("/tracker", "depth_object_tracker/Tracker", {{"/depth/image", "/camera/depth/image_raw"}}, {}));
+  ASSERT_TRUE(loader.load("/simulator", "depth_object_tracker/Simulator",
+                          {{"/simulator/initial_pose", "/tracker/initial_pose"}}, {}));
   ASSERT_TRUE(waitUntil([&] { return addresses.size() >= 10; }));
 
   const auto wasPublishedAt = [&](std::uint64_t address) {
@@ -46,4 +50,6 @@ TEST(ZeroCopy, TheLikelihoodReadsWhatTheCameraNodeletPublished) {
 }  // namespace
 }  // namespace depth_object_tracker
 
-int main(int argc, char** argv) { return runRosTests(argc, argv, "zero_copy_rostest"); }
+int main(int argc, char** argv) {
+  return runRosTests(argc, argv, "zero_copy_rostest");
+}

@@ -14,7 +14,8 @@ class DepthSensorTest : public testing::Test {
   DepthSensorTest() { config_.blobs = 0; }
 
   std::vector<float> plane(float depth_m) const {
-    return std::vector<float>(static_cast<std::size_t>(camera_.width) * static_cast<std::size_t>(camera_.height), depth_m);
+    return std::vector<float>(static_cast<std::size_t>(camera_.width) * static_cast<std::size_t>(camera_.height),
+                              depth_m);
   }
 
   std::vector<std::uint16_t> measure(const std::vector<float>& depth, std::uint64_t frame = 0) const {
@@ -34,7 +35,8 @@ class DepthSensorTest : public testing::Test {
 
 TEST_F(DepthSensorTest, PlaneHasTheNoiseOfTheModelAndNoBias) {
   for (const float depth : {0.6f, 1.0f, 2.0f}) {
-    // Slightly tilted: at one depth alone the noise depends on where between two disparity steps, and two millimetres, it lies.
+    // Slightly tilted: at one depth alone the noise depends on where between two disparity steps, and two millimetres,
+    // it lies.
     std::vector<float> tilted = plane(depth);
     for (std::size_t i = 0; i < tilted.size(); ++i) {
       tilted[i] += 1e-4f * static_cast<float>(i % static_cast<std::size_t>(camera_.width));

@@ -79,8 +79,7 @@ void NoiseStatistics::addPatches(const DepthImageView& depth) {
   }
 }
 
-void NoiseStatistics::addObject(const DepthImageView& depth, const PinholeCamera& camera,
-                                const Pose& T_camera_object) {
+void NoiseStatistics::addObject(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_object) {
   const auto& pixels = renderer_.render(T_camera_object, camera);
   std::vector<float> rendered(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height), 0.0f);
   for (const CoveredPixel& pixel : pixels) rendered[pixelIndex(pixel, camera)] = pixel.depth;
@@ -118,7 +117,9 @@ double NoiseStatistics::planeStddev(std::size_t bin) const {
   return plane_stddev_m_[bin].size() < 50 ? 0.0 : median(plane_stddev_m_[bin]);
 }
 
-double NoiseStatistics::objectStddev() const { return 1.4826 * median(residual_m_); }
+double NoiseStatistics::objectStddev() const {
+  return 1.4826 * median(residual_m_);
+}
 
 std::string NoiseStatistics::header() {
   std::string text = "sequence                    | noise about a plane [mm] at ";

@@ -28,8 +28,10 @@ class NoiseStatistics {
   double planeStddev(std::size_t bin) const;
   /// 1.4826 * median absolute deviation of measured minus true depth, inside of the visible object [m].
   double objectStddev() const;
-  double interiorHoleShare() const { return share(interior_holes_, interior_pixels_); }  ///< > 4 px inside of the outline
-  double edgeHoleShare() const { return share(edge_holes_, edge_pixels_); }              ///< up to 2 px inside
+  double interiorHoleShare() const {
+    return share(interior_holes_, interior_pixels_);
+  }                                                                          ///< > 4 px inside of the outline
+  double edgeHoleShare() const { return share(edge_holes_, edge_pixels_); }  ///< up to 2 px inside
   /// Of the readings up to 2 px inside of the outline, those over 2 cm behind the object.
   double edgeOutlierShare() const { return share(edge_behind_, edge_pixels_ - edge_holes_); }
 
@@ -39,7 +41,9 @@ class NoiseStatistics {
  private:
   void addPatches(const DepthImageView& depth);
   void addObject(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_object);
-  static double share(long part, long whole) { return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0; }
+  static double share(long part, long whole) {
+    return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+  }
 
   DepthRenderer renderer_;
   std::array<std::vector<double>, kNumBins> plane_stddev_m_;

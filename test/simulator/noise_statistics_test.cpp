@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The simulated camera's noise in numbers, beside that of recorded and other simulated sequences where they are at hand.
+// The simulated camera's noise in numbers, beside that of recorded and other simulated sequences where they are at
+// hand.
 #include "noise_statistics.h"
 
 #include "depth_object_tracker/geometry/mesh_loader.h"

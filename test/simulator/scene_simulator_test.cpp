@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The simulated scene: deterministic, in view, as fast as asked for, and truthful about what it shows.
-#include "depth_object_tracker/geometry/mesh_loader.h"
 #include "depth_object_tracker/simulator/scene_simulator.h"
+#include "depth_object_tracker/geometry/mesh_loader.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,8 @@ TriangleMesh loadTestMesh(const std::string& name) {
   return loadMesh(std::string(PROJECT_SOURCE_FOLDER) + "/meshes/" + name + ".obj");
 }
 
-SimulationConfig makeConfig(Scenario scenario, Speed speed, Occluders occluders = Occluders::kNone, std::uint64_t seed = 5) {
+SimulationConfig makeConfig(Scenario scenario, Speed speed, Occluders occluders = Occluders::kNone,
+                            std::uint64_t seed = 5) {
   SimulationConfig config;
   config.scenario = scenario;
   config.speed = speed;
@@ -64,7 +65,8 @@ TEST_P(SceneMotion, RestsFirstThenReachesItsPeakSpeeds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SceneMotion,
-                         testing::Values(std::pair{Scenario::kHuman, Speed::kSlow}, std::pair{Scenario::kHuman, Speed::kFast},
+                         testing::Values(std::pair{Scenario::kHuman, Speed::kSlow},
+                                         std::pair{Scenario::kHuman, Speed::kFast},
                                          std::pair{Scenario::kRobot, Speed::kMedium}));
 
 TEST(SceneSimulator, KeepsTheObjectInViewForMinutes) {

@@ -16,7 +16,8 @@ namespace {
 
 ObjectModel loadTestObject(const std::string& name) {
   const std::string root = PROJECT_SOURCE_FOLDER;
-  return loadObject(loadObjectDescription(root + "/config/objects/" + name + ".yaml"), [&](const std::string&) { return root; });
+  return loadObject(loadObjectDescription(root + "/config/objects/" + name + ".yaml"),
+                    [&](const std::string&) { return root; });
 }
 
 TEST(SceneWriter, WhatIsWrittenCanBeReadBack) {

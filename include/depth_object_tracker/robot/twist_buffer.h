@@ -26,8 +26,8 @@ class TwistBuffer {
   /// @param max_age_s a sample says nothing about times further away than this, in either direction.
   explicit TwistBuffer(double max_age_s = 0.1) : max_age_s_(max_age_s) {}
 
-  /// Samples may come a little late; one with the stamp of another replaces it. One from before the history means that time
-  /// jumped back (a bag that loops): the buffer starts anew.
+  /// Samples may come a little late; one with the stamp of another replaces it. One from before the history means that
+  /// time jumped back (a bag that loops): the buffer starts anew.
   /// @return false when a number is not finite; the sample is then ignored.
   bool add(const TwistSample& sample);
 

@@ -24,9 +24,11 @@ struct CameraResult {
   std::string problem;  ///< empty = usable; otherwise what is wrong with the message and what to do
 };
 
-/// Camera of an image of the given size: CameraInfo describes the full resolution, from which region of interest and binning
-/// lead to the image. An image_proc/resize style message (K and P already scaled, no binning) comes out the same way.
-CameraResult cameraFromInfo(const sensor_msgs::CameraInfo& info, Intrinsics intrinsics, int image_width, int image_height);
+/// Camera of an image of the given size: CameraInfo describes the full resolution, from which region of interest and
+/// binning lead to the image. An image_proc/resize style message (K and P already scaled, no binning) comes out the
+/// same way.
+CameraResult cameraFromInfo(const sensor_msgs::CameraInfo& info, Intrinsics intrinsics, int image_width,
+                            int image_height);
 
 /// True when a distortion coefficient is not zero: a raw image is then not exactly a pinhole picture.
 bool hasDistortion(const sensor_msgs::CameraInfo& info);

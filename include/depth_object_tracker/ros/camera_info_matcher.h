@@ -10,9 +10,10 @@
 
 namespace depth_object_tracker {
 
-/// Image and camera_info arrive in any order. An image waits for the camera_info of its own stamp only until the next image
-/// comes; from then on images go out at once with the newest camera_info until stamps match again. So a camera_info that
-/// is published once, latched, or late never stops the stream. Not thread-safe: both callbacks on one queue.
+/// Image and camera_info arrive in any order. An image waits for the camera_info of its own stamp only until the next
+/// image comes; from then on images go out at once with the newest camera_info until stamps match again. So a
+/// camera_info that is published once, latched, or late never stops the stream. Not thread-safe: both callbacks on one
+/// queue.
 class CameraInfoMatcher {
  public:
   using Output = std::function<void(CameraFrame)>;
@@ -30,7 +31,7 @@ class CameraInfoMatcher {
   std::deque<sensor_msgs::CameraInfoConstPtr> infos_;  // newest last
   CameraFrame waiting_;                                // image null: nothing waits
   ros::Time last_image_stamp_;
-  bool stamps_match_ = true;                           // whether waiting for the exact stamp is worth it
+  bool stamps_match_ = true;  // whether waiting for the exact stamp is worth it
 };
 
 }  // namespace depth_object_tracker

@@ -18,8 +18,8 @@ namespace depth_object_tracker {
 /// An image, never copied, with the camera_info that belongs to it.
 struct CameraFrame {
   sensor_msgs::ImageConstPtr image;
-  sensor_msgs::CameraInfoConstPtr info;                ///< null: none came
-  std::chrono::steady_clock::time_point received_at;   ///< wall clock of the image callback
+  sensor_msgs::CameraInfoConstPtr info;               ///< null: none came
+  std::chrono::steady_clock::time_point received_at;  ///< wall clock of the image callback
 };
 
 /// Any thread posts; one thread waits. All functions are thread-safe.
@@ -29,7 +29,7 @@ class FrameInbox {
   static constexpr std::size_t kMaxCommands = 4096;
 
   struct Delivery {
-    std::deque<Command> commands;      ///< in the order of posting; to be carried out before the frame
+    std::deque<Command> commands;  ///< in the order of posting; to be carried out before the frame
     std::optional<CameraFrame> frame;
   };
 

@@ -22,7 +22,8 @@ class HeldMotion {
   /// Keeps the twist, turned to the axes of the camera; its frame must not move against the camera.
   /// @param camera_frame empty, or an empty frame_id: the axes are taken to be the camera's.
   /// @return empty, or why the twist is ignored.
-  std::string addTwist(const geometry_msgs::TwistStamped& twist, const std::string& camera_frame, const tf2::BufferCore& tf);
+  std::string addTwist(const geometry_msgs::TwistStamped& twist, const std::string& camera_frame,
+                       const tf2::BufferCore& tf);
 
   /// True when the twist up to this stamp is not here yet but may well come.
   bool awaitsTwist(double stamp_s) const;

@@ -14,7 +14,7 @@ namespace depth_object_tracker {
 /// A checked initial pose; frame_id empty = the camera's optical frame.
 struct InitialPose {
   std::string frame_id;
-  ros::Time stamp;                         ///< zero = the newest transform
+  ros::Time stamp;  ///< zero = the newest transform
   Pose T_frame_object = Pose::Identity();
   Matrix6d covariance = Matrix6d::Zero();  ///< axes of `frame_id`; all zero = defaults
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ROS parameters of the tracker nodelet: `~tracker/...` for the algorithm, a handful of `~...` for the nodelet itself.
+// The ROS parameters of the tracker nodelet: `~tracker/...` for the algorithm, a handful of `~...` for the nodelet
+// itself.
 #pragma once
 
 #include "depth_object_tracker/tracker/tracker_config.h"
@@ -17,7 +18,8 @@ struct TrackerParameters {
   std::vector<std::string> problems;  ///< one sentence each, naming key, value and valid range; empty = all good
 };
 
-/// @param value what the parameter server holds at `name`: a map from key to value; an invalid XmlRpcValue means that there is
+/// @param value what the parameter server holds at `name`: a map from key to value; an invalid XmlRpcValue means that
+/// there is
 ///   none, which gives the defaults.
 TrackerParameters loadTrackerParameters(XmlRpc::XmlRpcValue value, const std::string& name);
 
@@ -31,9 +33,9 @@ struct ObjectSource {
 
 struct NodeletOptions {
   ObjectSource object;
-  std::string init_file;                  ///< JSON pose at start; empty = wait to be told
+  std::string init_file;  ///< JSON pose at start; empty = wait to be told
   std::string image_transport = "raw";
-  bool robot = false;                     ///< joint states move the object while it is held (not available yet)
+  bool robot = false;  ///< joint states move the object while it is held (not available yet)
   bool publish_tf = true;
   bool marker_use_mesh_resource = false;  ///< rviz loads the mesh file itself, instead of a triangle list
   bool publish_debug = false;             ///< ~debug/last_image_address

@@ -41,8 +41,8 @@ class ResultPublisher {
   std::uint64_t num_costly_messages_ = 0;
   MarkerBuilder marker_builder_;
   tf2_ros::TransformBroadcaster tf_broadcaster_;
-  ros::Publisher pose_, twist_, particles_, particle_poses_, particle_points_, occlusion_, camera_info_, overlay_, marker_,
-      status_, image_address_;
+  ros::Publisher pose_, twist_, particles_, particle_poses_, particle_points_, occlusion_, camera_info_, overlay_,
+      marker_, status_, image_address_;
 };
 
 }  // namespace depth_object_tracker

@@ -31,9 +31,9 @@ class SimulatorMonitor {
   std::string statusLine(double period_s);
 
   struct Summary {
-    std::size_t images = 0;          ///< with ground truth
-    std::size_t estimates = 0;       ///< of those, with an estimate
-    std::size_t far_off = 0;         ///< of those, by more than kFarOffM
+    std::size_t images = 0;     ///< with ground truth
+    std::size_t estimates = 0;  ///< of those, with an estimate
+    std::size_t far_off = 0;    ///< of those, by more than kFarOffM
     double median_position_m = 0.0;
     double median_rotation_rad = 0.0;
     double worst_position_m = 0.0;
@@ -55,7 +55,7 @@ class SimulatorMonitor {
   Stamped truths_, estimates_;
   std::optional<TrackerStatus> status_;
   std::vector<Error> errors_;
-  std::size_t reported_ = 0;      // errors that a status line has told of
+  std::size_t reported_ = 0;  // errors that a status line has told of
   std::size_t num_truths_ = 0;
 };
 

@@ -12,13 +12,14 @@
 namespace depth_object_tracker {
 
 struct SimulatorOptions {
-  std::string object_file;           ///< object YAML; `package://`, `file://` or a plain path
+  std::string object_file;  ///< object YAML; `package://`, `file://` or a plain path
   SimulationConfig simulation;
   double rate_hz = 30.0;             ///< images per second of ROS time, [1, 120]
   double wait_for_tracker_s = 20.0;  ///< the object rests until somebody listens to ~initial_pose, at most this long
   double init_error_m = 0.005;       ///< of the pose that is given to the tracker
   double init_error_rad = 0.07;
-  std::vector<std::string> problems; ///< one sentence each, naming parameter, value and what is allowed; empty = all good
+  std::vector<std::string>
+      problems;  ///< one sentence each, naming parameter, value and what is allowed; empty = all good
 };
 
 /// Reads `object_file, scenario, speed, occluders, seed, rate_hz, wait_for_tracker_s, init_error_m, init_error_rad`.

@@ -20,7 +20,8 @@ constexpr const char* kCameraOpticalFrame = "camera_depth_optical_frame";
 /// Advertises on construction. Publishing is for one thread.
 class SimulatorPublisher {
  public:
-  /// @param name_space absolute; `camera/...`, `ground_truth/...`, `control_twist` and `grasp` lie below. Given, because a nodelet
+  /// @param name_space absolute; `camera/...`, `ground_truth/...`, `control_twist` and `grasp` lie below. Given,
+  /// because a nodelet
   ///   of the root namespace has a node handle whose relative names land in its manager's namespace.
   /// @param private_node for `~initial_pose`
   SimulatorPublisher(ros::NodeHandle node, ros::NodeHandle private_node, const std::string& name_space,

@@ -33,7 +33,8 @@ class ThrottledLog {
   static constexpr std::size_t kMaxKinds = 256;  // names in messages come from outside
 
   static std::string withoutNumbers(std::string text) {
-    text.erase(std::remove_if(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; }), text.end());
+    text.erase(std::remove_if(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; }),
+               text.end());
     return text;
   }
 

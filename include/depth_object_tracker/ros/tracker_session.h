@@ -44,12 +44,14 @@ using InitialisationCallback = std::function<void(const InitialisationOutcome&)>
 class TrackerSession {
  public:
   /// @param tf outlives the session. @param image_topic for messages, and to tell raw from rectified images.
-  TrackerSession(const std::string& name, const std::string& image_topic, const std::string& info_topic, tf2::BufferCore& tf);
+  TrackerSession(const std::string& name, const std::string& image_topic, const std::string& info_topic,
+                 tf2::BufferCore& tf);
 
   /// Takes a new object (or the problem that there is none), forgetting the old one's pose.
   void setTracker(BuiltTracker built);
 
-  /// Starts anew from this pose at the next image. @param callback is told when TRACKING, or that it was given up; may be empty.
+  /// Starts anew from this pose at the next image. @param callback is told when TRACKING, or that it was given up; may
+  /// be empty.
   void initialise(const InitialPose& pose, InitialisationCallback callback);
 
   /// Says in log and status why a wished pose was refused; what is tracked goes on.

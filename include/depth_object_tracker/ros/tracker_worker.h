@@ -52,7 +52,7 @@ class TrackerWorker {
   FrameStatistics statistics_;
   Clock::time_point last_image_at_ = Clock::now();
   Clock::time_point last_status_at_ = Clock::now();
-  bool announce_ = false;  // a command asked for a status
+  bool announce_ = false;       // a command asked for a status
   bool idle_reported_ = false;  // in the log, once for as long as no image comes
   std::thread thread_;
 };

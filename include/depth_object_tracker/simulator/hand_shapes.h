@@ -19,9 +19,9 @@ struct GraspFrame {
 
 /// A hand that moves with the object.
 struct Hand {
-  TriangleMesh mesh;  ///< object frame
-  Eigen::Vector3d wrist = Eigen::Vector3d::Zero();      ///< object frame
-  Eigen::Vector3d wrist_out = Eigen::Vector3d::UnitX(); ///< unit vector from the hand to its arm, object frame
+  TriangleMesh mesh;                                     ///< object frame
+  Eigen::Vector3d wrist = Eigen::Vector3d::Zero();       ///< object frame
+  Eigen::Vector3d wrist_out = Eigen::Vector3d::UnitX();  ///< unit vector from the hand to its arm, object frame
 };
 
 /// Palm, four fingers and a thumb around the object; nothing when the object is too thick there.

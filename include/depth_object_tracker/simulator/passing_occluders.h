@@ -15,14 +15,14 @@ namespace depth_object_tracker {
 
 /// One passage of one thing. `coverage` is the share of the object's extent along `direction_image` that is hidden.
 struct OccluderEvent {
-  bool is_board = true;    ///< else an arm
-  bool sweeps = true;      ///< crosses the whole object; else it comes in, waits and leaves the way it came
+  bool is_board = true;  ///< else an arm
+  bool sweeps = true;    ///< crosses the whole object; else it comes in, waits and leaves the way it came
   double start_s = 0.0;
   double end_s = 0.0;
   double coverage = 0.5;
   Eigen::Vector2d direction_image = Eigen::Vector2d::UnitX();
-  double depth_m = 0.0;      ///< set when it begins
-  double thickness_px = 0.0; ///< across its long side, set when it begins
+  double depth_m = 0.0;       ///< set when it begins
+  double thickness_px = 0.0;  ///< across its long side, set when it begins
   std::size_t number = 0;
 };
 
@@ -32,7 +32,7 @@ class PassingOccluders {
   PassingOccluders(const SimulationConfig& config, const TriangleMesh& object);
 
   struct Placed {
-    std::size_t number;     ///< of the passage; a new number means a new mesh
+    std::size_t number;  ///< of the passage; a new number means a new mesh
     Pose T_camera_occluder;
   };
   /// What is before the object now, if anything.

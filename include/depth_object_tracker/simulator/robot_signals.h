@@ -11,12 +11,12 @@
 namespace depth_object_tracker {
 
 struct RobotErrorConfig {
-  double twist_noise_m_s = 0.006;       ///< white, per image
+  double twist_noise_m_s = 0.006;  ///< white, per image
   double twist_noise_rad_s = 0.021;
-  double twist_bias_m_s = 0.003;        ///< constant
+  double twist_bias_m_s = 0.003;  ///< constant
   double twist_bias_rad_s = 0.0105;
-  double twist_scale_error = 0.05;      ///< velocities are off by up to this share
-  double kinematics_error_m = 0.035;    ///< grows as the arm leaves its first pose
+  double twist_scale_error = 0.05;    ///< velocities are off by up to this share
+  double kinematics_error_m = 0.035;  ///< grows as the arm leaves its first pose
   double kinematics_error_rad = 0.07;
 };
 
@@ -29,7 +29,8 @@ class RobotSignals {
   /// @param T_camera_hand true pose of the hand; the robot thinks that the object moves with it.
   ControlInput control(double t_s, const Pose& T_camera_hand, const Pose& T_camera_object);
 
-  /// Where forward kinematics place an object that is at `T_camera_held` if it has not moved in the hand. Exact at the first call.
+  /// Where forward kinematics place an object that is at `T_camera_held` if it has not moved in the hand. Exact at the
+  /// first call.
   Pose kinematics(const Pose& T_camera_held);
 
  private:

@@ -2,10 +2,10 @@
 // A depth camera before which one object is moved: images and the truth about them.
 #pragma once
 
+#include "depth_object_tracker/geometry/triangle_mesh.h"
 #include "depth_object_tracker/model/control_input.h"
 #include "depth_object_tracker/simulator/simulation_config.h"
 #include "depth_object_tracker/simulator/static_world.h"
-#include "depth_object_tracker/geometry/triangle_mesh.h"
 
 #include <memory>
 #include <optional>
@@ -15,12 +15,12 @@ namespace depth_object_tracker {
 
 struct SimulatedFrame {
   double stamp_s = 0.0;
-  Pose T_camera_object = Pose::Identity();     ///< truth: mesh origin in the optical frame
-  std::vector<std::uint16_t> depth_mm;         ///< row-major, 0 = no reading
-  std::vector<std::uint8_t> occlusion;         ///< row-major: 0 off the object, 128 occluded, 255 visible
-  int object_pixels = 0;                       ///< in the image, occluded or not
+  Pose T_camera_object = Pose::Identity();  ///< truth: mesh origin in the optical frame
+  std::vector<std::uint16_t> depth_mm;      ///< row-major, 0 = no reading
+  std::vector<std::uint8_t> occlusion;      ///< row-major: 0 off the object, 128 occluded, 255 visible
+  int object_pixels = 0;                    ///< in the image, occluded or not
   int visible_pixels = 0;
-  std::optional<ControlInput> control;         ///< while a robot holds the object
+  std::optional<ControlInput> control;                 ///< while a robot holds the object
   Pose T_camera_object_kinematics = Pose::Identity();  ///< where the robot believes it is; the truth without a robot
 
   double visibleFraction() const {

@@ -26,21 +26,21 @@ enum class Occluders {
 
 /// Structured-light camera. Depth noise grows as measured by Nguyen, Izadi and Lovell (3DIMPVT 2012) for the Kinect.
 struct DepthSensorConfig {
-  double baseline_m = 0.075;             ///< projector stands this far to the right of the camera
-  double disparity_step_px = 0.125;      ///< 1/8 pixel sub-pixel matching
-  double noise_at_nearest_m = 0.0013;    ///< standard deviation at `noise_nearest_m`, before quantisation
-  double noise_growth_per_m = 0.0019;    ///< added: this * (z - noise_nearest_m)^2
+  double baseline_m = 0.075;           ///< projector stands this far to the right of the camera
+  double disparity_step_px = 0.125;    ///< 1/8 pixel sub-pixel matching
+  double noise_at_nearest_m = 0.0013;  ///< standard deviation at `noise_nearest_m`, before quantisation
+  double noise_growth_per_m = 0.0019;  ///< added: this * (z - noise_nearest_m)^2
   double noise_nearest_m = 0.4;
-  double correlated_share = 0.4;         ///< share of the noise variance that neighbours have in common
-  double correlation_px = 3.0;           ///< standard deviation of the correlation kernel
+  double correlated_share = 0.4;        ///< share of the noise variance that neighbours have in common
+  double correlation_px = 3.0;          ///< standard deviation of the correlation kernel
   double edge_jitter_px = 0.5;          ///< standard deviation of where an edge is seen
-  double edge_step_m = 0.03;             ///< depth steps above are edges
+  double edge_step_m = 0.03;            ///< depth steps above are edges
   double mixed_probability = 0.2;       ///< an edge pixel lies between the two surfaces
-  double edge_drop_probability = 0.12;   ///< an edge pixel has no reading
-  double grazing_begin_deg = 74.0;       ///< from here on, seen ever flatter, surfaces lose readings
-  double grazing_end_deg = 82.0;         ///< from here on there is no reading
-  double shadow_tolerance_px = 1.5;      ///< disparity by which a surface must stand before another to shadow it
-  int blobs = 8;                         ///< patches without reading per image
+  double edge_drop_probability = 0.12;  ///< an edge pixel has no reading
+  double grazing_begin_deg = 74.0;      ///< from here on, seen ever flatter, surfaces lose readings
+  double grazing_end_deg = 82.0;        ///< from here on there is no reading
+  double shadow_tolerance_px = 1.5;     ///< disparity by which a surface must stand before another to shadow it
+  int blobs = 8;                        ///< patches without reading per image
   double blob_radius_px = 4.0;
   double min_range_m = 0.45;
   double max_range_m = 6.0;
@@ -51,14 +51,14 @@ struct SimulationConfig {
   Speed speed = Speed::kMedium;
   Occluders occluders = Occluders::kNone;
   std::uint64_t seed = 1;
-  double duration_s = 5.0;     ///< peak speeds are reached within; motion goes on, never repeating, after it
-  double first_rest_s = 0.3;   ///< before the object starts to move
-  double distance_m = 0.74;    ///< camera to the middle of the object's motion
-  double amplitude_m = 0.14;   ///< largest displacement from there, reduced where the object would leave the view
-  double amplitude_rad = 0.87; ///< largest rotation about each axis
-  double min_depth_m = 0.47;   ///< no part of the object comes nearer
-  double max_depth_m = 1.3;    ///< no part of the object goes farther
-  double camera_height_m = 0.62;  ///< over the table
+  double duration_s = 5.0;          ///< peak speeds are reached within; motion goes on, never repeating, after it
+  double first_rest_s = 0.3;        ///< before the object starts to move
+  double distance_m = 0.74;         ///< camera to the middle of the object's motion
+  double amplitude_m = 0.14;        ///< largest displacement from there, reduced where the object would leave the view
+  double amplitude_rad = 0.87;      ///< largest rotation about each axis
+  double min_depth_m = 0.47;        ///< no part of the object comes nearer
+  double max_depth_m = 1.3;         ///< no part of the object goes farther
+  double camera_height_m = 0.62;    ///< over the table
   double camera_pitch_rad = 0.436;  ///< down
   PinholeCamera camera{640, 480, 525.0, 525.0, 319.5, 239.5};
   DepthSensorConfig sensor;

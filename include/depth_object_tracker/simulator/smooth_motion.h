@@ -28,7 +28,8 @@ class SmoothMotion {
  public:
   static constexpr double kMaxWindowS = 600.0;
 
-  /// @param is_allowed whether the body may be at a pose; amplitudes shrink until it may all the time (nullptr: always).
+  /// @param is_allowed whether the body may be at a pose; amplitudes shrink until it may all the time (nullptr:
+  /// always).
   SmoothMotion(const SmoothMotionConfig& config, const std::function<bool(const Pose&)>& is_allowed = nullptr);
 
   /// Pose of the moved point's frame: translation = config.centre_m + displacement.

@@ -51,11 +51,13 @@ TEST(Demo, FramesLeadFromTheWorldToTheCamera) {
   ASSERT_TRUE(buffer.canTransform(kWorldFrame, kCameraOpticalFrame, newest, kPatience));
   const auto camera = buffer.lookupTransform(kWorldFrame, kCameraOpticalFrame, newest).transform;
   EXPECT_NEAR(camera.translation.z, 0.62, 1e-9);
-  EXPECT_TRUE(buffer.canTransform(kCameraOpticalFrame, "drill", newest, kPatience)) << "the tracker's estimate, below its object's name";
+  EXPECT_TRUE(buffer.canTransform(kCameraOpticalFrame, "drill", newest, kPatience))
+      << "the tracker's estimate, below its object's name";
 }
 
 TEST(Demo, TrackerIsGivenOneSlightlyWrongPose) {
-  const auto initial = ros::topic::waitForMessage<geometry_msgs::PoseWithCovarianceStamped>("/tracker/initial_pose", kPatience);
+  const auto initial =
+      ros::topic::waitForMessage<geometry_msgs::PoseWithCovarianceStamped>("/tracker/initial_pose", kPatience);
   ASSERT_TRUE(initial);
   EXPECT_EQ(initial->header.frame_id, kCameraOpticalFrame);
   EXPECT_NEAR(initial->pose.covariance[0], 0.005 * 0.005, 1e-9);
