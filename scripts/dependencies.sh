@@ -58,6 +58,15 @@ install_dependencies() {
     die "apt-get could not install the packages above"
 }
 
+# ensure_localhost: ROS asks the system for the address of "localhost", which a freshly made root cannot tell.
+ensure_localhost() {
+  getent hosts localhost >/dev/null && return 0
+  echo "the name localhost cannot be resolved, which ROS needs: /etc/hosts lacks it"
+  confirm "add \"127.0.0.1 localhost\" to /etc/hosts?" ||
+    die "localhost is unknown; run with --yes or add the line \"127.0.0.1 localhost\" to /etc/hosts"
+  echo "127.0.0.1 localhost" | as_root tee -a /etc/hosts >/dev/null || die "/etc/hosts cannot be written"
+}
+
 # use_system_python: ROS tools need the python3 that Debian's packages belong to; another one may stand before it.
 use_system_python() {
   [ -x /usr/bin/python3 ] && PATH="/usr/bin:$PATH"
