@@ -208,6 +208,44 @@ TEST_P(OcclusionPosterior, MeanBeliefIsTheWeightedMeanOverParticles) {
   EXPECT_NEAR(likelihood_->assess(poseAt(0, 0, 1.0), 0).log_likelihood, expected, 1e-4);
 }
 
+TEST_P(OcclusionPosterior, AfterResamplingAllParticlesCountTheSame) {
+  for (std::size_t k = 0; k < 3; ++k) updateFrame(k, {kSteadyPast[k], kOtherPast[k]});
+  likelihood_->setWeights({0.9, 0.1});
+  likelihood_->resample({0, 1});  // both survive; what tells them apart from now on is not their old weight
+  likelihood_->setImage(viewOf(kFrames[3].readings, grid_.camera), grid_, kFrames[3].dt_s);
+  likelihood_->prepare({kSteadyPast[3], kOtherPast[3]});
+  double expected = 0.0;
+  for (int i = 0; i < kPixels; ++i) {
+    const double p_occluded = 0.5 * (belief(0, i) + belief(1, i));
+    expected += updatePixel(kFrames[3].readings[static_cast<std::size_t>(i)], 1.0, p_occluded, pixel_).log_ratio;
+  }
+  EXPECT_NEAR(likelihood_->logLikelihood(poseAt(0, 0, 1.0), 0), expected, 1e-4);
+}
+
+TEST_P(OcclusionPosterior, ParticlesThatFlyApartAreAllRemembered) {
+  // The region grows while particles are weighed; the mean belief must follow it.
+  SamplingGrid wide = makeSamplingGrid(makeCamera(64, 48, 60.0), 1);
+  const std::vector<float> readings(64 * 48, 0.8f);
+  likelihood_->setImage(viewOf(readings, wide.camera), wide, 0.0);
+  likelihood_->prepare({poseAt(0, 0, 1.0), poseAt(0, 0, 1.0)});
+  const std::vector<Pose> apart = {poseAt(-0.35, -0.25, 1.0), poseAt(0.35, 0.25, 1.0)};
+  std::vector<double> log_likelihoods;
+  likelihood_->update(apart, log_likelihoods);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Eigen::Vector2d pixel = wide.camera.project(apart[i].translation());
+    const int row = static_cast<int>(std::lround(pixel.y())), col = static_cast<int>(std::lround(pixel.x()));
+    const OcclusionMemory& memory = likelihood_->memory();
+    ASSERT_TRUE(memory.inRegion(row, col)) << "particle " << i;
+    const double expected = updatePixel(0.8f, 1.0, chain_.initial_p_occluded, pixel_).p_occluded;
+    EXPECT_NEAR(memory.probability(memory.particle(static_cast<int>(i))[memory.cell(row, col)]), expected, 1e-4);
+    const PoseAssessment assessment = likelihood_->assess(apart[i], 0);
+    const double prior = updatePixel(0.8f, 1.0, chain_.initial_p_occluded, pixel_).log_ratio;
+    EXPECT_NEAR(assessment.log_likelihood, prior * assessment.measured_pixels,
+                1e-3 * std::abs(assessment.log_likelihood))
+        << "the estimate is judged by the beliefs of before the measurement";
+  }
+}
+
 TEST_P(OcclusionPosterior, MissingReadingsLeaveTheChainAlone) {
   const std::vector<float> nothing = {kNone, 0.0f, 7.0f};
   updateFrame(0, {kSteadyPast[0], kOtherPast[0]});
