@@ -210,9 +210,7 @@ Linearisation DepthLikelihood::linearise(const Pose& T_camera_centre, double ext
 }
 
 void DepthLikelihood::update(const std::vector<Pose>& T_camera_centre, std::vector<double>& log_likelihoods) {
-  CellBox box;
-  for (const Pose& pose : T_camera_centre) box = unite(box, boundingBox(pose));
-  image_.prepare(box);
+  prepare(T_camera_centre);  // every particle remembers all of its pixels, also one that was drawn far from the others
   log_likelihoods.assign(T_camera_centre.size(), 0.0);
   pool_.run(static_cast<int>(T_camera_centre.size()), [&](int index, int thread) {
     const auto i = static_cast<std::size_t>(index);
@@ -245,6 +243,7 @@ void DepthLikelihood::resample(const std::vector<int>& source) {
   for (std::size_t slot = 0; slot < source.size(); ++slot) {
     if (source[slot] != static_cast<int>(slot)) memory_.copy(source[slot], static_cast<int>(slot));
   }
+  weights_.assign(source.size(), 1.0 / static_cast<double>(source.size()));
 }
 
 PoseAssessment DepthLikelihood::assess(const Pose& T_camera_centre, int thread) {
