@@ -58,6 +58,14 @@ install_dependencies() {
     die "apt-get could not install the packages above"
 }
 
+# use_local_names: everything here runs on this machine. Where its own name cannot be resolved ROS would not find itself.
+use_local_names() {
+  ensure_localhost
+  if [ -z "${ROS_HOSTNAME:-}${ROS_IP:-}" ] && ! getent hosts "$(uname -n)" >/dev/null; then
+    export ROS_HOSTNAME=localhost
+  fi
+}
+
 # ensure_localhost: ROS asks the system for the address of "localhost", which a freshly made root cannot tell.
 ensure_localhost() {
   getent hosts localhost >/dev/null && return 0
