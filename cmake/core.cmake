@@ -4,12 +4,15 @@ add_library(depth_object_tracker_core SHARED
   src/filter/gaussian6.cpp
   src/filter/informed_proposal.cpp
   src/filter/mode_search.cpp
-  src/filter/occlusion_memory.cpp
+  src/filter/occlusion_tiles.cpp
   src/filter/particle_filter.cpp
   src/filter/pose_statistics.cpp
   src/filter/random.cpp
   src/filter/resampling.cpp
+  src/filter/tile_likelihood.cpp
   src/filter/worker_pool.cpp
+  src/geometry/edge_collapse.cpp
+  src/geometry/level_of_detail.cpp
   src/geometry/mesh_file_check.cpp
   src/geometry/mesh_loader.cpp
   src/geometry/mesh_orientation.cpp
@@ -17,6 +20,8 @@ add_library(depth_object_tracker_core SHARED
   src/geometry/pinhole_camera.cpp
   src/geometry/polygon_triangulation.cpp
   src/geometry/pose.cpp
+  src/geometry/simd_target.cpp
+  src/geometry/surface_distance.cpp
   src/geometry/symmetry.cpp
   src/geometry/triangle_mesh.cpp
   src/model/measured_image.cpp
@@ -24,7 +29,12 @@ add_library(depth_object_tracker_core SHARED
   src/model/pixel_likelihood.cpp
   src/model/process_model.cpp
   src/render/depth_renderer.cpp
-  src/render/soft_outline.cpp
+  src/render/depth_tile.cpp
+  src/render/face_set.cpp
+  src/render/tile_outline.cpp
+  src/render/tile_rasterizer.cpp
+  src/render/tile_renderer.cpp
+  src/tracker/frame_budget.cpp
   src/tracker/frame_clock.cpp
   src/tracker/object_model.cpp
   src/tracker/object_tracker.cpp
@@ -38,8 +48,34 @@ add_library(depth_object_tracker_core SHARED
 )
 target_include_directories(depth_object_tracker_core
   # Headers that refuse to compile stand before the system's: a ROS include in the core is an error even where ROS lives in /usr/include.
-  PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/cmake/no_ros
+  PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/cmake/no_ros ${CMAKE_CURRENT_SOURCE_DIR}/src
   PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
 target_link_libraries(depth_object_tracker_core
   PUBLIC Eigen3::Eigen Threads::Threads
   PRIVATE depth_object_tracker_warnings assimp::assimp yaml-cpp)
+
+# Portable SIMD is optional: without Highway the plain C++ loops run, some ten times slower, with the same results.
+find_path(HIGHWAY_INCLUDE_DIR hwy/highway.h)
+find_library(HIGHWAY_LIBRARY hwy)
+if(HIGHWAY_INCLUDE_DIR AND HIGHWAY_LIBRARY)
+  target_sources(depth_object_tracker_core PRIVATE
+    src/filter/tile_likelihood_simd.cpp
+    src/render/tile_outline_simd.cpp
+    src/render/tile_rasterizer_simd.cpp)
+  target_compile_definitions(depth_object_tracker_core PRIVATE DEPTH_OBJECT_TRACKER_HAVE_HIGHWAY)
+  target_include_directories(depth_object_tracker_core SYSTEM PRIVATE ${HIGHWAY_INCLUDE_DIR})
+  target_link_libraries(depth_object_tracker_core PRIVATE ${HIGHWAY_LIBRARY})
+else()
+  message(STATUS "depth_object_tracker: Highway (libhwy-dev) was not found: the tracker will be several times slower")
+endif()
+
+# So is meshoptimizer: without it simplified meshes come from clustering vertices and have more triangles.
+find_path(MESHOPTIMIZER_INCLUDE_DIR meshoptimizer.h)
+find_library(MESHOPTIMIZER_LIBRARY meshoptimizer)
+if(MESHOPTIMIZER_INCLUDE_DIR AND MESHOPTIMIZER_LIBRARY)
+  target_compile_definitions(depth_object_tracker_core PRIVATE DEPTH_OBJECT_TRACKER_HAVE_MESHOPTIMIZER)
+  target_include_directories(depth_object_tracker_core SYSTEM PRIVATE ${MESHOPTIMIZER_INCLUDE_DIR})
+  target_link_libraries(depth_object_tracker_core PRIVATE ${MESHOPTIMIZER_LIBRARY})
+else()
+  message(STATUS "depth_object_tracker: meshoptimizer (libmeshoptimizer-dev) was not found: coarser level of detail")
+endif()

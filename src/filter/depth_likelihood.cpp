@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/filter/depth_likelihood.h"
 
+#include "depth_object_tracker/geometry/level_of_detail.h"
+#include "depth_object_tracker/model/pixel_likelihood.h"
+#include "depth_object_tracker/render/depth_renderer.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace depth_object_tracker {
 namespace {
-
-// Pixels seen flatter than this tell more about the mesh's edges than about the pose.
-constexpr double kMinIncidenceCosine = 0.12;
 
 double boundingRadius(const TriangleMesh& mesh, const Eigen::Vector3d& centre) {
   double squared = 0.0;
@@ -19,102 +20,73 @@ double boundingRadius(const TriangleMesh& mesh, const Eigen::Vector3d& centre) {
   return std::sqrt(squared);
 }
 
-std::vector<Eigen::Vector3f> triangleNormals(const TriangleMesh& mesh) {
-  std::vector<Eigen::Vector3f> normals;
-  normals.reserve(mesh.triangles.size());
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Eigen::Vector3d edge1 = (mesh.vertices[b] - mesh.vertices[a]).cast<double>();
-    const Eigen::Vector3d edge2 = (mesh.vertices[c] - mesh.vertices[a]).cast<double>();
-    normals.push_back(edge1.cross(edge2).normalized().cast<float>());
-  }
-  return normals;
+/// How far a simplified mesh may be from the surface [m]. Noise averages out over the pixels, the error of a mesh does
+/// so much less: the more pixels, the smaller a share of the noise it may be.
+double allowedLevelError(double depth_m, double radius_px, const PixelModelConfig& config) {
+  constexpr double kLargestShare = 0.1, kShareTimesRadius = 2.3;
+  return std::min(kLargestShare, kShareTimesRadius / radius_px) * surfaceNoiseStddev(depth_m, config);
 }
 
-/// Surface noise widened by an extra standard deviation [m].
-void widen(MeasuredPixel& pixel, float extra_stddev_m) {
-  const float widened =
-      1.0f / std::sqrt(1.0f / (pixel.inverse_stddev * pixel.inverse_stddev) + extra_stddev_m * extra_stddev_m);
-  pixel.visible_peak *= widened / pixel.inverse_stddev;
-  pixel.inverse_stddev = widened;
+std::vector<RenderObject> makeRenderLevels(const TriangleMesh& mesh, const PixelModelConfig& config) {
+  std::vector<RenderObject> levels;
+  for (const MeshLevel& level : makeLevels(mesh, allowedLevelError(config.max_depth_m, 1.0, config))) {
+    levels.emplace_back(level.mesh, level.error_m);
+  }
+  return levels;
 }
 
-/// What a reading of the surface says: the depth along the beam changes by n.(dt + dtheta x (p - c)) / n.ray.
-void addSurfaceTerm(const MeasuredPixel& pixel, float rendered_depth, float responsibility, const Eigen::Vector3d& ray,
-                    const Eigen::Vector3d& from_centre, const Eigen::Vector3d& normal, Linearisation& sum) {
-  const double slope = normal.dot(ray);
-  if (responsibility < 1e-4f || std::abs(slope) < kMinIncidenceCosine * ray.norm()) return;
-  Vector6d jacobian;
-  jacobian.head<3>() = normal / slope;
-  jacobian.tail<3>() = from_centre.cross(normal) / slope;
-  const double weight = responsibility * pixel.inverse_stddev * pixel.inverse_stddev;
-  sum.gradient += weight * (pixel.depth - rendered_depth) * jacobian;
-  sum.information.selfadjointView<Eigen::Lower>().rankUpdate(jacobian, weight);
+/// Of the outline, in cells. On a coarse grid it is known to a fraction of a cell at best: cells are in or out as a
+/// whole.
+double edgeStddev(double edge_stddev_px, int factor) {
+  constexpr double kCellStddev = 0.3;
+  return edge_stddev_px > 0.0 ? std::hypot(kCellStddev, edge_stddev_px / factor) : 0.0;
 }
 
-/// What a pixel near the outline says: moving the object along the outward image normal covers it more.
-/// @param slope d log L / d distance to the outline [nat/px]. Its square stands for the information (Fisher's
-/// identity).
-void addOutlineTerm(double slope, const Eigen::Vector2d& normal, const Eigen::Vector3d& ray, double depth,
-                    const Eigen::Vector3d& from_centre, const PinholeCamera& camera, Linearisation& sum) {
-  const Eigen::Vector3d image_motion(camera.fx * normal.x() / depth, camera.fy * normal.y() / depth,
-                                     -(camera.fx * normal.x() * ray.x() + camera.fy * normal.y() * ray.y()) / depth);
-  Vector6d jacobian;
-  jacobian.head<3>() = image_motion;
-  jacobian.tail<3>() = from_centre.cross(image_motion);
-  sum.gradient += slope * jacobian;
-  sum.information.selfadjointView<Eigen::Lower>().rankUpdate(jacobian, slope * slope);
+/// Adds what one covered pixel with a reading says about how well a pose fits.
+void assessPixel(const MeasuredPixel& pixel, float depth, float coverage, float p_occluded, const PixelModel& model,
+                 PoseAssessment& sum) {
+  const PixelRatios ratios = pixelRatios(model, pixel, depth);
+  const float visible = (1.0f - p_occluded) * ratios.visible, occluded = p_occluded * ratios.occluded;
+  const float total = 1.0f + coverage * (visible + occluded - 1.0f);
+  const double not_occluded = visible / (visible + occluded);
+  ++sum.measured_pixels;
+  sum.visible_pixels += (1.0f - p_occluded) * ratios.surface / (visible + occluded);
+  sum.achieved += not_occluded * std::log(total);
+  // A visible pixel's log density has the mean of a Gaussian's: half a nat below its peak.
+  const double peak = (1.0f - p_occluded) * pixel.visible_peak;
+  sum.expected += not_occluded * (std::log(1.0 + coverage * (peak - 1.0)) - 0.5);
 }
-
-/// Log of a product of many positive factors; takes one logarithm for many of them.
-class LogProduct {
- public:
-  void multiply(float factor) {
-    product_ *= factor;
-    if (++count_ == kFactorsPerLog) flush();
-  }
-  double log() {
-    flush();
-    return sum_;
-  }
-
- private:
-  // A factor lies within about 1e-7 and 1e5: sixteen of them stay far inside of the range of a double.
-  static constexpr int kFactorsPerLog = 16;
-  void flush() {
-    sum_ += std::log(product_);
-    product_ = 1.0;
-    count_ = 0;
-  }
-  double product_ = 1.0, sum_ = 0.0;
-  int count_ = 0;
-};
 
 }  // namespace
 
 DepthLikelihood::DepthLikelihood(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object,
                                  const PixelModelConfig& pixel_config, const OcclusionChainConfig& occlusion_config,
                                  int num_particles, int num_threads)
-    : mesh_(mesh),
+    : levels_(makeRenderLevels(mesh, pixel_config)),
+      object_(&levels_.front()),
+      pixel_config_(pixel_config),
       centre_object_(centre_object),
       radius_(boundingRadius(mesh, centre_object)),
-      normals_object_(triangleNormals(mesh)),
+      edge_stddev_px_(pixel_config.edge_stddev_px),
       image_(pixel_config),
-      memory_(occlusion_config, num_particles),
-      weights_(static_cast<std::size_t>(num_particles), 1.0 / num_particles),
+      outline_(edgeStddev(edge_stddev_px_, 1)),
       pool_(num_threads),
-      renderers_(static_cast<std::size_t>(pool_.numThreads()), DepthRenderer(mesh)),
-      outlines_(renderers_.size()),
-      edge_stddev_px_(pixel_config.edge_stddev_px) {}
+      memory_(occlusion_config, num_particles, pool_.numThreads()),
+      weights_(static_cast<std::size_t>(num_particles), 1.0 / num_particles),
+      scratch_(static_cast<std::size_t>(pool_.numThreads())) {}
 
 void DepthLikelihood::setImage(const DepthImageView& view, const SamplingGrid& grid, double dt_s) {
-  const SamplingGrid& last = image_.grid();
+  const SamplingGrid last = image_.grid();
   if (last.full != grid.full) {
     memory_.reset();
+    memory_.setGrid(grid.camera.height, grid.camera.width);
   } else if (last.factor != grid.factor) {
     memory_.resampleGrid(last, grid);
   }
   image_.setImage(view, grid);
+  outline_ = OutlineCoverage(edgeStddev(edge_stddev_px_, grid.factor));
   memory_.advance(dt_s);
+  object_ = nullptr;  // chosen when it is known where the object may be
 }
 
 CellBox DepthLikelihood::boundingBox(const Pose& T_camera_centre) const {
@@ -133,27 +105,78 @@ CellBox DepthLikelihood::boundingBox(const Pose& T_camera_centre) const {
   };
   const auto [col_begin, col_end] = bounds(p.x(), camera.fx, camera.cx);
   const auto [row_begin, row_end] = bounds(p.y(), camera.fy, camera.cy);
-  return intersect({row_begin, row_end, col_begin, col_end}, image_.imageBox());
+  constexpr int kOutline = 3;  // cells beyond the outline that count
+  return intersect({row_begin - kOutline, row_end + kOutline, col_begin - kOutline, col_end + kOutline},
+                   image_.imageBox());
 }
 
 void DepthLikelihood::prepare(const std::vector<Pose>& T_camera_centre) {
+  memory_.keepAround(prepareRegion(T_camera_centre));
+  memory_.updateMean(weights_);
+}
+
+CellBox DepthLikelihood::prepareRegion(const std::vector<Pose>& T_camera_centre) {
+  if (object_ == nullptr) chooseLevel(T_camera_centre);
   CellBox box;
   for (const Pose& pose : T_camera_centre) box = unite(box, boundingBox(pose));
   image_.prepare(box);
-  memory_.cover(box, image_.imageBox());
-  memory_.mean(weights_, mean_belief_);
+  return box;
 }
 
-const std::vector<SoftPixel>& DepthLikelihood::render(const Pose& T_camera_centre, int thread) {
+void DepthLikelihood::chooseLevel(const std::vector<Pose>& T_camera_centre) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Pose& pose : T_camera_centre) nearest = std::min(nearest, std::max(pose.translation().z(), kNearPlaneM));
+  const double radius_px = image_.grid().camera.fx * radius_ / nearest;
+  const double allowed = allowedLevelError(nearest, radius_px, pixel_config_);
+  object_ = &levels_.front();
+  for (const RenderObject& level : levels_) {
+    if (level.error_m <= allowed) object_ = &level;  // from fine to coarse
+  }
+}
+
+Pose DepthLikelihood::toObject(const Pose& T_camera_centre) const {
   Pose T_camera_object = T_camera_centre;
   T_camera_object.translation() -= T_camera_centre.linear() * centre_object_;
-  const auto i = static_cast<std::size_t>(thread);
-  const PinholeCamera& camera = image_.grid().camera;
-  return outlines_[i].soften(renderers_[i].render(T_camera_object, camera), camera, edgeStddev());
+  return T_camera_object;
 }
 
-float DepthLikelihood::meanBelief(int row, int col) const {
-  return memory_.probability(memory_.inRegion(row, col) ? mean_belief_[memory_.cell(row, col)] : memory_.unmeasured());
+const DepthTile& DepthLikelihood::render(const Pose& T_camera_centre, bool for_derivatives, int thread) {
+  return scratch_[static_cast<std::size_t>(thread)].renderer.render(*object_, toObject(T_camera_centre),
+                                                                    image_.grid().camera, outline_, for_derivatives);
+}
+
+bool DepthLikelihood::isPrepared(const Pose& T_camera_centre) const {
+  return T_camera_centre.translation().allFinite() &&
+         image_.isPrepared(TileRenderer::coveredBox(*object_, toObject(T_camera_centre), image_.grid().camera));
+}
+
+int DepthLikelihood::tileIndex(const DepthTile& tile, int index) const {
+  const int row = tile.row_begin / kTileSize + index / tile.tile_cols;
+  return row * memory_.tileCols() + tile.col_begin / kTileSize + index % tile.tile_cols;
+}
+
+const float* const* DepthLikelihood::meanBeliefs(const DepthTile& tile, int thread) {
+  std::vector<const float*>& beliefs = scratch_[static_cast<std::size_t>(thread)].beliefs;
+  beliefs.assign(tile.touched.size(), nullptr);
+  for (std::size_t i = 0; i < beliefs.size(); ++i) {
+    if (tile.touched[i] != 0) beliefs[i] = memory_.meanTile(tileIndex(tile, static_cast<int>(i)));
+  }
+  return beliefs.data();
+}
+
+float* const* DepthLikelihood::ownBeliefs(const DepthTile& tile, int particle, int thread) {
+  std::vector<float*>& beliefs = scratch_[static_cast<std::size_t>(thread)].posteriors;
+  beliefs.assign(tile.touched.size(), nullptr);
+  for (std::size_t i = 0; i < beliefs.size(); ++i) {
+    if (tile.touched[i] == 0) continue;
+    beliefs[i] = memory_.writableTile(particle, tileIndex(tile, static_cast<int>(i)), thread);
+  }
+  return beliefs.data();
+}
+
+TileLikelihoodInput DepthLikelihood::input() const {
+  const float stationary = memory_.probability(0.0f), scale = memory_.scale();
+  return {image_.planes(), image_.model(), {stationary, scale, 1.0f / scale, memory_.unmeasured()}};
 }
 
 double DepthLikelihood::logLikelihood(const Pose& T_camera_centre, int thread) {
@@ -161,56 +184,29 @@ double DepthLikelihood::logLikelihood(const Pose& T_camera_centre, int thread) {
 }
 
 double DepthLikelihood::broadLogLikelihood(const Pose& T_camera_centre, double extra_stddev_m, int thread) {
-  if (!image_.isPrepared(boundingBox(T_camera_centre))) return -std::numeric_limits<double>::infinity();
-  LogProduct likelihood;
-  for (const SoftPixel& covered : render(T_camera_centre, thread)) {
-    MeasuredPixel pixel = image_.pixel(covered.row, covered.col);
-    if (pixel.depth <= 0.0f) continue;
-    if (extra_stddev_m > 0.0) widen(pixel, static_cast<float>(extra_stddev_m));
-    const PixelRatios ratios = image_.ratios(pixel, covered.depth);
-    const float p_occluded = image_.believedOcclusion(meanBelief(covered.row, covered.col), pixel, covered.depth);
-    const float hit = (1.0f - p_occluded) * ratios.visible + p_occluded * ratios.occluded;
-    likelihood.multiply(1.0f + covered.coverage * (hit - 1.0f));
-  }
-  return likelihood.log();
+  if (!isPrepared(T_camera_centre)) return -std::numeric_limits<double>::infinity();
+  const DepthTile& tile = render(T_camera_centre, false, thread);
+  return tileLogLikelihood(tile, input(), meanBeliefs(tile, thread), static_cast<float>(extra_stddev_m));
 }
 
 Linearisation DepthLikelihood::linearise(const Pose& T_camera_centre, double extra_stddev_m, int thread) {
   Linearisation result;
-  if (!image_.isPrepared(boundingBox(T_camera_centre))) return result;
-  const Eigen::Matrix3d R = T_camera_centre.linear();
-  const Eigen::Vector3d centre = T_camera_centre.translation();
-  const PinholeCamera& camera = image_.grid().camera;
-  const SoftOutline& outline = outlines_[static_cast<std::size_t>(thread)];
-  for (const SoftPixel& covered : render(T_camera_centre, thread)) {
-    MeasuredPixel pixel = image_.pixel(covered.row, covered.col);
-    if (pixel.depth <= 0.0f) continue;
-    if (extra_stddev_m > 0.0) widen(pixel, static_cast<float>(extra_stddev_m));
-    const PixelRatios ratios = image_.ratios(pixel, covered.depth);
-    const float p_occluded = image_.believedOcclusion(meanBelief(covered.row, covered.col), pixel, covered.depth);
-    const float hit = (1.0f - p_occluded) * ratios.visible + p_occluded * ratios.occluded;
-    const float total = 1.0f + covered.coverage * (hit - 1.0f);
-    const Eigen::Vector3d ray = camera.ray(covered.col, covered.row);
-    const Eigen::Vector3d from_centre = ray * covered.depth - centre;
-    if (covered.coverage >= 0.5f) {
-      const float responsibility = covered.coverage * (1.0f - p_occluded) * ratios.surface / total;
-      addSurfaceTerm(pixel, covered.depth, responsibility, ray, from_centre,
-                     R * normals_object_[covered.triangle].cast<double>(), result);
-    }
-    if (covered.coverage < 1.0f) {
-      const double edge_stddev = edgeStddev(), distance = outline.distance(covered);
-      const double density =
-          std::exp(-0.5 * distance * distance / (edge_stddev * edge_stddev)) / (edge_stddev * std::sqrt(2.0 * M_PI));
-      addOutlineTerm(density * (hit - 1.0) / total, outline.outwardNormal(covered).cast<double>(), ray, covered.depth,
-                     from_centre, camera, result);
-    }
+  if (!isPrepared(T_camera_centre)) return result;
+  const DepthTile& tile = render(T_camera_centre, true, thread);
+  const TileGeometry geometry = makeTileGeometry(T_camera_centre.linear(), T_camera_centre.translation(),
+                                                 image_.grid().camera, object_->faces, outline_, tile);
+  const LinearisationSums sums =
+      lineariseTile(tile, input(), meanBeliefs(tile, thread), static_cast<float>(extra_stddev_m), geometry);
+  std::size_t entry = 6;
+  for (int i = 0; i < 6; ++i) {
+    result.gradient[i] = sums[static_cast<std::size_t>(i)];
+    for (int j = 0; j <= i; ++j) result.information(i, j) = result.information(j, i) = sums[entry++];
   }
-  result.information = result.information.selfadjointView<Eigen::Lower>();
   return result;
 }
 
 void DepthLikelihood::update(const std::vector<Pose>& T_camera_centre, std::vector<double>& log_likelihoods) {
-  prepare(T_camera_centre);  // every particle remembers all of its pixels, also one that was drawn far from the others
+  prepareRegion(T_camera_centre);
   log_likelihoods.assign(T_camera_centre.size(), 0.0);
   pool_.run(static_cast<int>(T_camera_centre.size()), [&](int index, int thread) {
     const auto i = static_cast<std::size_t>(index);
@@ -219,64 +215,37 @@ void DepthLikelihood::update(const std::vector<Pose>& T_camera_centre, std::vect
 }
 
 double DepthLikelihood::updateParticle(int index, const Pose& T_camera_centre, int thread) {
-  float* beliefs = memory_.particle(index);
-  LogProduct likelihood;
-  for (const SoftPixel& covered : render(T_camera_centre, thread)) {
-    const MeasuredPixel& pixel = image_.pixel(covered.row, covered.col);
-    if (pixel.depth <= 0.0f) continue;
-    const PixelRatios ratios = image_.ratios(pixel, covered.depth);
-    const bool remembered = memory_.inRegion(covered.row, covered.col);
-    float* belief = remembered ? beliefs + memory_.cell(covered.row, covered.col) : nullptr;
-    const float p_occluded = image_.believedOcclusion(memory_.probability(remembered ? *belief : memory_.unmeasured()),
-                                                      pixel, covered.depth);
-    const float hit = (1.0f - p_occluded) * ratios.visible + p_occluded * ratios.occluded;
-    const float total = 1.0f + covered.coverage * (hit - 1.0f);
-    likelihood.multiply(total);
-    // A beam that misses the object says nothing about occlusion: that share of the belief stays.
-    const float occluded = p_occluded * (1.0f + covered.coverage * (ratios.occluded - 1.0f));
-    if (remembered) *belief = memory_.stored(occluded / total);
-  }
-  return likelihood.log();
+  const DepthTile& tile = render(T_camera_centre, false, thread);
+  return updateTileBeliefs(tile, input(), ownBeliefs(tile, index, thread));
 }
 
 void DepthLikelihood::resample(const std::vector<int>& source) {
-  for (std::size_t slot = 0; slot < source.size(); ++slot) {
-    if (source[slot] != static_cast<int>(slot)) memory_.copy(source[slot], static_cast<int>(slot));
-  }
+  memory_.resample(source);
   weights_.assign(source.size(), 1.0 / static_cast<double>(source.size()));
 }
 
 PoseAssessment DepthLikelihood::assess(const Pose& T_camera_centre, int thread) {
   PoseAssessment result;
   image_.prepare(boundingBox(T_camera_centre));
-  LogProduct likelihood;
-  for (const SoftPixel& covered : render(T_camera_centre, thread)) {
-    const bool inside = covered.coverage >= 0.5f;
-    result.covered_pixels += inside ? 1 : 0;
-    const MeasuredPixel& pixel = image_.pixel(covered.row, covered.col);
-    if (pixel.depth <= 0.0f) continue;
-    const PixelRatios ratios = image_.ratios(pixel, covered.depth);
-    const float p_occluded = image_.believedOcclusion(meanBelief(covered.row, covered.col), pixel, covered.depth);
-    const float visible = (1.0f - p_occluded) * ratios.visible, occluded = p_occluded * ratios.occluded;
-    const float total = 1.0f + covered.coverage * (visible + occluded - 1.0f);
-    likelihood.multiply(total);
-    if (!inside) continue;
-    const double not_occluded = visible / (visible + occluded);
-    ++result.measured_pixels;
-    result.visible_pixels += (1.0f - p_occluded) * ratios.surface / (visible + occluded);
-    result.achieved += not_occluded * std::log(total);
-    // A visible pixel's log density has the mean of a Gaussian's: half a nat below its peak.
-    const double peak = (1.0f - p_occluded) * pixel.visible_peak;
-    result.expected += not_occluded * (std::log(1.0 + covered.coverage * (peak - 1.0)) - 0.5);
+  const DepthTile& tile = render(T_camera_centre, false, thread);
+  const TileLikelihoodInput data = input();
+  const float* const* beliefs = meanBeliefs(tile, thread);
+  result.log_likelihood = tileLogLikelihood(tile, data, beliefs, 0.0f);
+  for (int row = 0; row < tile.rows; ++row) {
+    for (int col = 0; col < tile.cols; ++col) {
+      if (!(tile.depth()[row * tile.stride + col] < std::numeric_limits<float>::infinity())) continue;
+      ++result.covered_pixels;
+      const MeasuredPixel pixel = image_.pixel(tile.row_begin + row, tile.col_begin + col);
+      if (pixel.depth <= 0.0f) continue;
+      const float* tile_beliefs = beliefs[row / kTileSize * tile.tile_cols + col / kTileSize];
+      const float stored = tile_beliefs != nullptr ? tile_beliefs[row % kTileSize * kTileSize + col % kTileSize]
+                                                   : data.belief.unmeasured;
+      const float depth = tile.depth()[row * tile.stride + col], coverage = tile.coverage()[row * tile.stride + col];
+      assessPixel(pixel, depth, coverage, believedOcclusion(data.model, memory_.probability(stored), pixel, depth),
+                  data.model, result);
+    }
   }
-  result.log_likelihood = likelihood.log();
   return result;
-}
-
-double DepthLikelihood::edgeStddev() const {
-  // On a coarse grid the outline is known to a fraction of a cell at best: cells are in or out as a whole.
-  constexpr double kCellStddev = 0.3;
-  return edge_stddev_px_ > 0.0 ? std::hypot(kCellStddev, edge_stddev_px_ / image_.grid().factor) : 0.0;
 }
 
 void DepthLikelihood::occlusionMap(const std::vector<Pose>& T_camera_centre, const std::vector<double>& weights,
@@ -288,15 +257,20 @@ void DepthLikelihood::occlusionMap(const std::vector<Pose>& T_camera_centre, con
   for (std::size_t i = 0; i < T_camera_centre.size(); ++i) {
     const auto weight = static_cast<float>(weights[i]);
     if (weight <= 0.0f) continue;
-    const float* beliefs = memory_.particle(static_cast<int>(i));
-    for (const SoftPixel& covered : render(T_camera_centre[i], 0)) {
-      if (covered.coverage < 0.5f) continue;
-      const bool remembered = memory_.inRegion(covered.row, covered.col);
-      const float stored = remembered ? beliefs[memory_.cell(covered.row, covered.col)] : memory_.unmeasured();
-      const std::size_t cell =
-          static_cast<std::size_t>(covered.row) * static_cast<std::size_t>(camera.width) + covered.col;
-      covering[cell] += weight;
-      map[cell] += weight * memory_.probability(stored);
+    const DepthTile& tile = render(T_camera_centre[i], false, 0);
+    for (int row = 0; row < tile.rows; ++row) {
+      for (int col = 0; col < tile.cols; ++col) {
+        if (!(tile.depth()[row * tile.stride + col] < std::numeric_limits<float>::infinity())) continue;
+        const int index = row / kTileSize * tile.tile_cols + col / kTileSize;
+        const float* beliefs = memory_.tile(static_cast<int>(i), tileIndex(tile, index));
+        const float stored =
+            beliefs != nullptr ? beliefs[row % kTileSize * kTileSize + col % kTileSize] : memory_.unmeasured();
+        const std::size_t cell =
+            static_cast<std::size_t>(tile.row_begin + row) * static_cast<std::size_t>(camera.width) +
+            static_cast<std::size_t>(tile.col_begin + col);
+        covering[cell] += weight;
+        map[cell] += weight * memory_.probability(stored);
+      }
     }
   }
   for (std::size_t i = 0; i < num_cells; ++i) {

@@ -21,6 +21,7 @@ constexpr std::size_t kMaxModes = InformedProposal::kMaxModes;
 ParticleFilter::ParticleFilter(const FilterConfig& config, double object_radius_m, Symmetries symmetries)
     : config_(config), object_radius_m_(object_radius_m), symmetries_(std::move(symmetries)), random_(config.seed) {
   const auto count = static_cast<std::size_t>(config.num_particles);
+  wanted_particles_ = count;
   poses_.assign(count, Pose::Identity());
   velocities_.assign(count, Vector6d::Zero());
   weights_.assign(count, 1.0 / static_cast<double>(count));
@@ -76,17 +77,25 @@ FilterEstimate ParticleFilter::update(PoseLikelihood& likelihood, const ProcessS
 }
 
 void ParticleFilter::resampleIfNeeded(PoseLikelihood& likelihood) {
-  const double count = static_cast<double>(poses_.size());
+  const std::size_t count = wanted_particles_;
+  const double enough = config_.resampling_threshold * static_cast<double>(poses_.size());
   const bool every_frame = config_.resampling_threshold >= 1.0;
-  if (!every_frame && effectiveSampleSize(weights_) >= config_.resampling_threshold * count) return;
-  const std::vector<int> source = resampleSystematic(weights_, random_.uniform(RandomPurpose::kResampling, frame_, 0));
+  if (!every_frame && count == poses_.size() && effectiveSampleSize(weights_) >= enough) return;
+  const double offset = random_.uniform(RandomPurpose::kResampling, frame_, 0);
+  const std::vector<int> source = resampleSystematic(weights_, offset, count);
+  poses_.resize(std::max(poses_.size(), count));
+  velocities_.resize(poses_.size());
   for (std::size_t slot = 0; slot < source.size(); ++slot) {
     const auto from = static_cast<std::size_t>(source[slot]);
     poses_[slot] = poses_[from];
     velocities_[slot] = velocities_[from];
   }
+  poses_.resize(count);
+  velocities_.resize(count);
+  predicted_.resize(count);
+  log_proposal_ratio_.resize(count);
   likelihood.resample(source);
-  weights_.assign(weights_.size(), 1.0 / count);
+  weights_.assign(count, 1.0 / static_cast<double>(count));
 }
 
 void ParticleFilter::predict(const ProcessStep& step) {

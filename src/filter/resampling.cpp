@@ -35,35 +35,38 @@ double effectiveSampleSize(const std::vector<double>& weights) {
   return sum_of_squares > 0.0 ? 1.0 / sum_of_squares : 0.0;
 }
 
-std::vector<int> resampleSystematic(const std::vector<double>& weights, double offset) {
-  const int n = static_cast<int>(weights.size());
-  std::vector<int> offspring(weights.size(), 0);
+std::vector<int> resampleSystematic(const std::vector<double>& weights, double offset, std::size_t count) {
+  const std::size_t num_particles = weights.size();
+  std::vector<int> offspring(num_particles, 0);
   double cumulative = 0.0;
-  int drawn = 0;
-  for (int i = 0; i < n; ++i) {
-    cumulative += weights[static_cast<std::size_t>(i)] * n;
-    while (drawn < n && offset + drawn < cumulative) {
-      ++offspring[static_cast<std::size_t>(i)];
+  std::size_t drawn = 0;
+  for (std::size_t i = 0; i < num_particles; ++i) {
+    cumulative += weights[i] * static_cast<double>(count);
+    while (drawn < count && offset + static_cast<double>(drawn) < cumulative) {
+      ++offspring[i];
       ++drawn;
     }
   }
   // Rounding may leave the last point beyond the sum: it belongs to the last particle that has any weight.
-  for (int i = n - 1; i >= 0 && drawn < n; --i) {
-    if (weights[static_cast<std::size_t>(i)] <= 0.0) continue;
-    offspring[static_cast<std::size_t>(i)] += n - drawn;
-    drawn = n;
+  for (std::size_t i = num_particles; i-- > 0 && drawn < count;) {
+    if (weights[i] <= 0.0) continue;
+    offspring[i] += static_cast<int>(count - drawn);
+    drawn = count;
   }
-  std::vector<int> source(weights.size());
-  int parent = 0;
-  for (int slot = 0; slot < n; ++slot) {
-    if (offspring[static_cast<std::size_t>(slot)] > 0) {
-      source[static_cast<std::size_t>(slot)] = slot;
-      continue;
-    }
-    while (parent < n && offspring[static_cast<std::size_t>(parent)] < 2) ++parent;
-    if (parent == n) break;
-    source[static_cast<std::size_t>(slot)] = parent;
-    --offspring[static_cast<std::size_t>(parent)];
+  constexpr int kNobody = -1;
+  std::vector<int> source(num_particles == 0 ? 0 : count, kNobody);
+  for (std::size_t slot = 0; slot < std::min(source.size(), num_particles); ++slot) {
+    if (offspring[slot] == 0) continue;
+    source[slot] = static_cast<int>(slot);
+    --offspring[slot];
+  }
+  std::size_t parent = 0;
+  for (int& from : source) {
+    if (from != kNobody) continue;
+    while (parent < num_particles && offspring[parent] == 0) ++parent;
+    if (parent == num_particles) break;
+    from = static_cast<int>(parent);
+    --offspring[parent];
   }
   return source;
 }

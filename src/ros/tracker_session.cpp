@@ -35,6 +35,7 @@ TrackerSession::TrackerSession(const std::string& name, const std::string& image
 
 void TrackerSession::setTracker(BuiltTracker built) {
   object_ = std::move(built);
+  budget_ = FrameBudget(object_.tracker ? object_.tracker->config().budget : BudgetConfig());
   abandon("another object was loaded");
   pending_pose_.reset();
   initial_pose_problem_.clear();
@@ -162,7 +163,12 @@ std::optional<ControlInput> TrackerSession::controlFor(double stamp_s) {
 void TrackerSession::runTracker(FrameOutcome& outcome) {
   const double stamp_s = outcome.header.stamp.toSec();
   const bool is_restored = restoreGivenPose(stamp_s);
+  object_.tracker->setEffort(budget_.effort());
+  const Clock::time_point begin = Clock::now();
   outcome.result = object_.tracker->update(outcome.depth, outcome.camera, stamp_s, controlFor(stamp_s));
+  if (outcome.result.input == TrackerResult::Input::kUsed) {
+    budget_.frameTook(std::chrono::duration<double>(Clock::now() - begin).count());
+  }
   if (is_restored) outcome.result.input = TrackerResult::Input::kTimeJumpedBack;
   outcome.processed = outcome.result.input != TrackerResult::Input::kDuplicateStamp;
   last_stamp_s_ = stamp_s;

@@ -2,6 +2,7 @@
 // Writes one JSON object per frame with all that the tracker says.
 #include "depth_object_tracker/tools/trace_writer.h"
 
+#include "depth_object_tracker/geometry/simd_target.h"
 #include "depth_object_tracker/tools/input_error.h"
 
 #include <nlohmann/json.hpp>
@@ -52,7 +53,7 @@ void TraceWriter::write(int frame, const TrackerResult& result) {
   line["downsampling"] = result.downsampling;
   line["pixels"] = result.pixels;
   line["pose_evaluations"] = result.pose_evaluations;
-  line["simd_target"] = "scalar";
+  line["simd_target"] = simdTarget();
   line["time_s"] = times(result.time);
   file_ << line.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
 }

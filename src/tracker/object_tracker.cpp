@@ -4,12 +4,14 @@
 #include "depth_object_tracker/filter/depth_likelihood.h"
 #include "depth_object_tracker/filter/particle_filter.h"
 #include "depth_object_tracker/filter/stopwatch.h"
+#include "depth_object_tracker/render/depth_renderer.h"
 #include "depth_object_tracker/tracker/frame_clock.h"
 #include "depth_object_tracker/tracker/pose_search.h"
 #include "depth_object_tracker/tracker/resolution.h"
 #include "depth_object_tracker/tracker/status_monitor.h"
 #include "depth_object_tracker/tracker/tracker_parameters.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -22,6 +24,7 @@ constexpr double kFreeAngleVariance = M_PI * M_PI / 3.0;
 constexpr int kHypotheses = 100;
 constexpr double kPoorFitReachS = 0.3;  // as far as after this long unseen
 constexpr double kPoorScore = 0.85;
+constexpr int kLeastParticles = 24;  // that a late frame is not cut below
 constexpr double kJumpShareWhenLost = 0.3;
 // With less of the object in view its pose counts as not seen.
 constexpr double kSeenAboveVisibleFraction = 0.3;
@@ -94,6 +97,7 @@ class ObjectTracker::Implementation {
   FrameClock clock;
   std::optional<Vector6d> initial_variances;  // set by initialise, used by the next image
   double full_resolution_pixels = 0.0;        // that the object covers
+  double effort = 1.0;                        // of what is configured
   PinholeCamera camera_in_use;
   TrackerResult result;
 
@@ -118,7 +122,7 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
   if (time.event == FrameClock::Event::kDuplicate) return result;
 
   if (full_resolution_pixels <= 0.0) full_resolution_pixels = projectedPixels(camera);
-  const SamplingGrid grid = makeSamplingGrid(camera, resolution.choose(full_resolution_pixels));
+  const SamplingGrid grid = makeSamplingGrid(camera, resolution.choose(full_resolution_pixels, std::sqrt(effort)));
   likelihood.setImage(depth, grid, time.dt_s);
 
   const double exponent = likelihoodExponent(config.filter, grid.factor);
@@ -195,8 +199,15 @@ ProcessStep ObjectTracker::Implementation::makeStep(double dt_s, const std::opti
     initial_variances.reset();
     return step;
   }
+  if (may_search && status.state() == TrackerState::kLost) {
+    // What the particles say of a pose that does not fit is worth nothing: they start again where the object was seen.
+    const Vector6d variances = searchVariances(unseen_s + dt_s);
+    filter.initialise(last_seen_centre);
+    hypotheses = search.around(last_seen_centre, variances, kHypotheses);
+    return ProcessStep(config.process, variances);
+  }
   ProcessStep step(config.process, dt_s, control, centre_object, diffusionScale());
-  const bool lost = status.state() == TrackerState::kLost || status.misfit();
+  const bool lost = status.misfit();
   if (may_search && lost) {
     const Vector6d variances = searchVariances(unseen_s + dt_s);
     step.allowJump(kJumpShareWhenLost, variances);
@@ -243,7 +254,7 @@ void ObjectTracker::Implementation::writeEstimate(const FilterEstimate& estimate
   result.twist.head<3>() += estimate.velocity.tail<3>().cross(origin_from_centre);
   result.twist_covariance = transportCovariance(estimate.velocity_covariance, origin_from_centre);
   result.effective_sample_size = estimate.effective_sample_size;
-  result.num_particles = config.filter.num_particles;
+  result.num_particles = static_cast<int>(filter.poses().size());
   result.pose_evaluations = estimate.pose_evaluations;
   result.time.proposal_s = estimate.time.proposal_s;
   result.time.render_likelihood_s = estimate.time.likelihood_s;
@@ -291,6 +302,13 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
 void ObjectTracker::reset() {
   implementation_->status.reset();
   implementation_->result = TrackerResult();
+}
+
+void ObjectTracker::setEffort(double effort) {
+  Implementation& self = *implementation_;
+  self.effort = std::clamp(effort, 1e-3, 1.0);
+  const int wanted = static_cast<int>(std::lround(std::sqrt(self.effort) * self.config.filter.num_particles));
+  self.filter.setNumParticles(std::max({1, wanted, std::min(kLeastParticles, self.config.filter.num_particles)}));
 }
 
 TrackerResult ObjectTracker::update(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s,

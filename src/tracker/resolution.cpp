@@ -14,10 +14,10 @@ constexpr double kExponentAtFullResolution = 0.015;
 
 }  // namespace
 
-int ResolutionChooser::choose(double full_resolution_pixels) {
+int ResolutionChooser::choose(double full_resolution_pixels, double share) {
   if (config_.downsampling > 0) return config_.downsampling;
   if (full_resolution_pixels <= 0.0) return factor_ > 0 ? factor_ : kFactorWhenUnknown;
-  const double target = config_.target_model_pixels;
+  const double target = config_.target_model_pixels * share;
   const double pixels = factor_ > 0 ? full_resolution_pixels / (factor_ * factor_) : 0.0;
   if (pixels > target * kHysteresis || pixels < target / kHysteresis) {
     const double wanted = std::sqrt(full_resolution_pixels / target);

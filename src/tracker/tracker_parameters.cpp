@@ -80,6 +80,7 @@ Bindings operationBindings() {
     bindNumber(FIELD(status, occluded_below_visible_fraction), 0.0, 1.0, "OCCLUDED when less of the object than this share is believed visible"),
     bindNumber(FIELD(status, lost_below_score), 0.0, 1.0, "LOST when the score stays below this for lost_after_s"),
     bindNumber(FIELD(status, lost_after_s), 0.0, 60.0, "time for which the score must stay below lost_below_score"),
+    bindNumber(FIELD(budget, frame_budget_s), 0.0, 10.0, "the nodelet takes fewer particles and pixels when frames take longer than this; 0 = never"),
   };
 }
 // clang-format on

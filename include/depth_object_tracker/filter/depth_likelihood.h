@@ -2,12 +2,13 @@
 // The paper's image likelihood: every pixel that the object covers at a pose, occlusion marginalised per particle.
 #pragma once
 
-#include "depth_object_tracker/filter/occlusion_memory.h"
+#include "depth_object_tracker/filter/occlusion_tiles.h"
 #include "depth_object_tracker/filter/pose_likelihood.h"
+#include "depth_object_tracker/filter/tile_likelihood.h"
 #include "depth_object_tracker/filter/worker_pool.h"
 #include "depth_object_tracker/geometry/triangle_mesh.h"
 #include "depth_object_tracker/model/measured_image.h"
-#include "depth_object_tracker/render/soft_outline.h"
+#include "depth_object_tracker/render/tile_renderer.h"
 
 #include <vector>
 
@@ -55,31 +56,47 @@ class DepthLikelihood : public PoseLikelihood {
   void setWeights(const std::vector<double>& weights) { weights_ = weights; }
 
   const MeasuredImage& image() const { return image_; }
-  OcclusionMemory& memory() { return memory_; }
+  OcclusionTiles& memory() { return memory_; }
   WorkerPool& pool() { return pool_; }
   double radius() const { return radius_; }
+
+  /// Number of triangles rendered for the present image, and of the mesh itself.
+  std::size_t renderedTriangles() const { return object_ != nullptr ? object_->mesh.triangles.size() : 0; }
 
   /// Cells that the object can cover at a pose: its bounding sphere, projected.
   CellBox boundingBox(const Pose& T_camera_centre) const;
 
  private:
-  const std::vector<SoftPixel>& render(const Pose& T_camera_centre, int thread);
-  double edgeStddev() const;
-  float meanBelief(int row, int col) const;
+  /// Scratch of one thread.
+  struct Scratch {
+    TileRenderer renderer;
+    std::vector<const float*> beliefs;
+    std::vector<float*> posteriors;
+  };
+
+  Pose toObject(const Pose& T_camera_centre) const;
+  const DepthTile& render(const Pose& T_camera_centre, bool for_derivatives, int thread);
+  void chooseLevel(const std::vector<Pose>& T_camera_centre);
+  CellBox prepareRegion(const std::vector<Pose>& T_camera_centre);
+  bool isPrepared(const Pose& T_camera_centre) const;
+  const float* const* meanBeliefs(const DepthTile& tile, int thread);
+  float* const* ownBeliefs(const DepthTile& tile, int particle, int thread);
+  int tileIndex(const DepthTile& tile, int index) const;
+  TileLikelihoodInput input() const;
   double updateParticle(int index, const Pose& T_camera_centre, int thread);
 
-  TriangleMesh mesh_;
+  std::vector<RenderObject> levels_;  // from fine to coarse
+  const RenderObject* object_;        // the one that is used for this image
+  PixelModelConfig pixel_config_;
   Eigen::Vector3d centre_object_;
-  double radius_;  // of the bounding sphere about the centre [m]
-  std::vector<Eigen::Vector3f> normals_object_;
+  double radius_;          // of the bounding sphere about the centre [m]
+  double edge_stddev_px_;  // full resolution
   MeasuredImage image_;
-  OcclusionMemory memory_;
-  std::vector<float> mean_belief_;  // stored values over the memory's region
-  std::vector<double> weights_;
+  OutlineCoverage outline_;
   WorkerPool pool_;
-  std::vector<DepthRenderer> renderers_;  // one per thread
-  std::vector<SoftOutline> outlines_;     // one per thread
-  double edge_stddev_px_ = 0.0;           // full resolution
+  OcclusionTiles memory_;
+  std::vector<double> weights_;
+  std::vector<Scratch> scratch_;  // one per thread
 };
 
 }  // namespace depth_object_tracker

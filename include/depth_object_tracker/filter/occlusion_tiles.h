@@ -16,7 +16,7 @@
 namespace depth_object_tracker {
 
 /// Values of one tile, row-major.
-struct alignas(32) OcclusionTile {
+struct alignas(64) OcclusionTile {
   float values[kTileCells];
 };
 
@@ -127,7 +127,7 @@ class OcclusionTiles {
   int tileRows() const { return tile_rows_; }
   int tileCols() const { return tile_cols_; }
 
-  /// Stored values of a particle's tile, row-major 8 x 8, 32-byte aligned; nullptr = never measured.
+  /// Stored values of a particle's tile, row-major 8 x 8, 64-byte aligned; nullptr = never measured.
   /// @param tile_index tile row * tileCols() + tile column. @return valid until the particle's tile is asked for
   /// writing or a function is called that is not const.
   const float* tile(int particle, int tile_index) const {

@@ -40,6 +40,9 @@ class ParticleFilter {
   /// Puts all particles at one pose, at rest; the first update's ProcessStep brings the initial uncertainty.
   void initialise(const Pose& T_camera_centre);
 
+  /// From the next update on. @param count >= 1
+  void setNumParticles(int count) { wanted_particles_ = static_cast<std::size_t>(count); }
+
   /// One frame. @param likelihood_exponent gamma in (0, 1].
   /// @param hypotheses further poses to look at (at the start, after a loss).
   FilterEstimate update(PoseLikelihood& likelihood, const ProcessStep& step, double likelihood_exponent,
@@ -72,6 +75,7 @@ class ParticleFilter {
   RandomSource random_;
   std::uint64_t frame_ = 0;
 
+  std::size_t wanted_particles_;
   std::vector<Pose> poses_;           // T_camera_centre
   std::vector<Vector6d> velocities_;  // of the centre
   std::vector<double> weights_;       // sum 1

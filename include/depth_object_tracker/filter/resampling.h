@@ -15,8 +15,13 @@ double effectiveSampleSize(const std::vector<double>& weights);
 
 /// Systematic resampling: particle i gets floor or ceil of n w_i offspring, n w_i in the mean.
 /// Survivors keep their own slot, so that only the slots of the dead need to be written.
-/// @param weights sum to 1. @param offset uniform in [0, 1).
+/// @param weights sum to 1. @param offset uniform in [0, 1). @param count n >= 1, number of slots.
 /// @return for every slot the index of the particle that goes there.
-std::vector<int> resampleSystematic(const std::vector<double>& weights, double offset);
+std::vector<int> resampleSystematic(const std::vector<double>& weights, double offset, std::size_t count);
+
+/// As many slots as particles.
+inline std::vector<int> resampleSystematic(const std::vector<double>& weights, double offset) {
+  return resampleSystematic(weights, offset, weights.size());
+}
 
 }  // namespace depth_object_tracker

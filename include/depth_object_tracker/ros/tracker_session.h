@@ -8,6 +8,7 @@
 #include "depth_object_tracker/ros/initial_pose_resolver.h"
 #include "depth_object_tracker/ros/object_source.h"
 #include "depth_object_tracker/ros/throttled_log.h"
+#include "depth_object_tracker/tracker/frame_budget.h"
 
 #include <depth_object_tracker/Grasp.h>
 #include <geometry_msgs/TwistStamped.h>
@@ -108,6 +109,7 @@ class TrackerSession {
   ThrottledLog log_;
 
   BuiltTracker object_;
+  FrameBudget budget_{BudgetConfig()};
   std::string initial_pose_problem_;  // why the last wish for an initial pose was not granted
   std::optional<PendingPose> pending_pose_;
   std::optional<GivenPose> given_pose_;

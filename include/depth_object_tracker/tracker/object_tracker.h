@@ -32,6 +32,10 @@ class ObjectTracker {
   /// Forgets the object: UNINITIALIZED until the next initialise().
   void reset();
 
+  /// Share of the configured computing effort to spend on the next images, in (0, 1]: particles and pixels are both
+  /// reduced to its square root. See FrameBudget.
+  void setEffort(double effort);
+
   /// Moves the estimate to the image's stamp.
   /// @param stamp_s seconds of the image's exposure; equal to the last one: ignored (counted); before it: see design,
   /// time jump.

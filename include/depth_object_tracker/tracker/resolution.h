@@ -13,7 +13,8 @@ class ResolutionChooser {
   explicit ResolutionChooser(const ResolutionConfig& config) : config_(config) {}
 
   /// @param full_resolution_pixels that the object covers, > 0 when known; 0 keeps the last factor.
-  int choose(double full_resolution_pixels);
+  /// @param share in (0, 1] of the pixels that are aimed at otherwise.
+  int choose(double full_resolution_pixels, double share = 1.0);
 
   void reset() { factor_ = 0; }
 

@@ -26,6 +26,10 @@ struct StatusConfig {
   double lost_after_s = 0.3;
 };
 
+struct BudgetConfig {
+  double frame_budget_s = 0.03;  ///< the nodelet uses fewer particles and pixels when frames take longer; 0 = never
+};
+
 /// Defaults live here and nowhere else; config/tracker.yaml repeats them and a test compares.
 struct TrackerConfig {
   PixelModelConfig pixel;
@@ -35,6 +39,7 @@ struct TrackerConfig {
   ResolutionConfig resolution;
   InitialisationConfig initialisation;
   StatusConfig status;
+  BudgetConfig budget;
 };
 
 }  // namespace depth_object_tracker

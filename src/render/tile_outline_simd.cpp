@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_object_tracker/render/tile_outline.h"
+
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/tile_outline_simd.cpp"
+#include "simd/foreach_target.h"
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace depth_object_tracker::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<float, kTileSize>;
+using V = hn::Vec<D>;
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
+
+struct RowPointers {
+  RowPointers(const float* plane, int row, const DepthTile& tile)
+      : here(plane + row * tile.stride),
+        above(row > 0 ? here - tile.stride : here),
+        below(row + 1 < tile.rows ? here + tile.stride : here) {}
+  const float *here, *above, *below;
+};
+
+struct Neighbours {
+  HWY_INLINE Neighbours(const RowPointers& rows, int col)
+      : here(hn::LoadU(D(), rows.here + col)),
+        above(hn::LoadU(D(), rows.above + col)),
+        below(hn::LoadU(D(), rows.below + col)),
+        left(hn::LoadU(D(), rows.here + col - 1)),
+        right(hn::LoadU(D(), rows.here + col + 1)) {}
+  HWY_INLINE V least() const { return hn::Min(here, hn::Min(hn::Min(above, below), hn::Min(left, right))); }
+  HWY_INLINE V largest() const { return hn::Max(here, hn::Max(hn::Max(above, below), hn::Max(left, right))); }
+  V here, above, below, left, right;
+};
+
+/// Rings of a few cells; depth by how far outside of the outline a cell lies.
+struct Rings {
+  V depth, dilated, eroded, dilated_twice, eroded_twice;
+};
+
+template <bool kWithDistance>
+HWY_INLINE bool writeCells(const Rings& rings, const OutlineCoverage& outline, int col, int offset, DepthTile& tile) {
+  const D d;
+  const V empty = hn::Set(d, std::numeric_limits<float>::infinity()), zero = hn::Zero(d);
+  const auto covered = hn::Lt(rings.depth, empty), beside = hn::Lt(rings.dilated, empty);
+  const auto near = hn::Lt(rings.dilated_twice, empty);
+  const auto inner = hn::Lt(rings.eroded, empty), innermost = hn::Lt(rings.eroded_twice, empty);
+  V coverage = hn::IfThenElseZero(near, hn::Set(d, outline.outside[1]));
+  coverage = hn::IfThenElse(beside, hn::Set(d, outline.outside[0]), coverage);
+  coverage = hn::IfThenElse(covered, hn::Set(d, outline.inside[0]), coverage);
+  coverage = hn::IfThenElse(inner, hn::Set(d, outline.inside[1]), coverage);
+  coverage = hn::IfThenElse(innermost, hn::Set(d, 1.0f), coverage);
+  const V cols = hn::Iota(d, static_cast<float>(col));
+  coverage = hn::IfThenElse(hn::Lt(cols, hn::Set(d, static_cast<float>(tile.cols))), coverage, zero);
+  hn::StoreU(coverage, d, tile.coverage() + offset);
+  V depth = hn::IfThenElse(beside, rings.dilated, rings.dilated_twice);
+  depth = hn::IfThenElse(covered, rings.depth, depth);
+  hn::StoreU(depth, d, tile.soft_depth() + offset);
+  if (kWithDistance) {
+    V distance = hn::IfThenElse(near, hn::Set(d, -1.5f), hn::Set(d, -2.5f));
+    distance = hn::IfThenElse(beside, hn::Set(d, -0.5f), distance);
+    distance = hn::IfThenElse(covered, hn::Set(d, 0.5f), distance);
+    distance = hn::IfThenElse(inner, hn::Set(d, 1.5f), distance);
+    distance = hn::IfThenElse(innermost, hn::Set(d, 2.5f), distance);
+    hn::StoreU(distance, d, tile.distance() + offset);
+  }
+  return !hn::AllFalse(d, hn::Gt(coverage, zero));
+}
+
+/// One row of cells, `rings(col)` tells about those from a column on.
+template <bool kWithDistance, typename RingsAt>
+HWY_INLINE void writeRow(int row, const OutlineCoverage& outline, DepthTile& tile, const RingsAt& ringsAt) {
+  std::uint8_t* touched = tile.touched.data() + row / kTileSize * tile.tile_cols;
+  for (int col = 0; col < tile.tile_cols * kTileSize; col += kLanes) {
+    const bool any = writeCells<kWithDistance>(ringsAt(col), outline, col, row * tile.stride + col, tile);
+    touched[col / kTileSize] |= static_cast<std::uint8_t>(any);
+  }
+}
+
+void writeHard(const OutlineCoverage& outline, DepthTile& tile) {
+  for (int row = 0; row < tile.rows; ++row) {
+    const float* depth = tile.depth() + row * tile.stride;
+    writeRow<false>(row, outline, tile, [&](int col) HWY_ATTR {
+      const V here = hn::LoadU(D(), depth + col), nothing = hn::Set(D(), std::numeric_limits<float>::infinity());
+      return Rings{here, nothing, here, nothing, here};
+    });
+  }
+}
+
+void writeOneRing(const OutlineCoverage& outline, DepthTile& tile) {
+  padRows(tile.depth(), tile);
+  for (int row = 0; row < tile.rows; ++row) {
+    const RowPointers rows(tile.depth(), row, tile);
+    writeRow<false>(row, outline, tile, [&](int col) HWY_ATTR {
+      const Neighbours cells(rows, col);
+      const V dilated = cells.least(), eroded = cells.largest();
+      return Rings{cells.here, dilated, eroded, dilated, eroded};
+    });
+  }
+}
+
+template <bool kWithDistance>
+void writeTwoRings(const OutlineCoverage& outline, DepthTile& tile) {
+  padRows(tile.depth(), tile);
+  for (int row = 0; row < tile.rows; ++row) {
+    const RowPointers rows(tile.depth(), row, tile);
+    for (int col = 0; col < tile.tile_cols * kTileSize; col += kLanes) {
+      const Neighbours cells(rows, col);
+      hn::StoreU(cells.least(), D(), tile.dilated() + row * tile.stride + col);
+      hn::StoreU(cells.largest(), D(), tile.eroded() + row * tile.stride + col);
+    }
+  }
+  padRows(tile.dilated(), tile);
+  padRows(tile.eroded(), tile);
+  for (int row = 0; row < tile.rows; ++row) {
+    const RowPointers dilated(tile.dilated(), row, tile), eroded(tile.eroded(), row, tile);
+    const float* depth = tile.depth() + row * tile.stride;
+    writeRow<kWithDistance>(row, outline, tile, [&](int col) HWY_ATTR {
+      const Neighbours outer(dilated, col), inner(eroded, col);
+      return Rings{hn::LoadU(D(), depth + col), outer.here, inner.here, outer.least(), inner.largest()};
+    });
+  }
+  if (kWithDistance) padRows(tile.distance(), tile);
+}
+
+void Soften(const OutlineCoverage& outline, bool with_distance, DepthTile& tile) {
+  clearRowsBeyondImage(tile);
+  if (with_distance) return writeTwoRings<true>(outline, tile);
+  if (outline.reach == 2) return writeTwoRings<false>(outline, tile);
+  if (outline.reach == 1) return writeOneRing(outline, tile);
+  writeHard(outline, tile);
+}
+
+}  // namespace depth_object_tracker::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace depth_object_tracker {
+
+HWY_EXPORT(Soften);
+
+void softenOutlineSimd(const OutlineCoverage& outline, bool with_distance, DepthTile& tile) {
+  HWY_DYNAMIC_DISPATCH(Soften)(outline, with_distance, tile);
+}
+
+}  // namespace depth_object_tracker
+#endif  // HWY_ONCE
