@@ -12,7 +12,7 @@ if(WITH_ROS)
     RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
   install(TARGETS demo_monitor scene_to_bag simulate_scene simulator_node track_sequence tracker_node
     RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-  catkin_install_python(PROGRAMS scripts/benchmark_sequences scripts/play_bag
+  catkin_install_python(PROGRAMS scripts/benchmark_sequences scripts/plot_benchmark scripts/play_bag
     DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
   install(DIRECTORY config launch meshes rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
@@ -28,7 +28,7 @@ else()
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  install(PROGRAMS scripts/benchmark_sequences DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(PROGRAMS scripts/benchmark_sequences scripts/plot_benchmark DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(DIRECTORY include/${PROJECT_NAME} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} PATTERN ros EXCLUDE)
   install(DIRECTORY config meshes DESTINATION ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME})
 endif()

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace depth_object_tracker {
@@ -47,7 +48,7 @@ void assessPixel(const MeasuredPixel& pixel, float depth, float coverage, float 
                  PoseAssessment& sum) {
   const PixelRatios ratios = pixelRatios(model, pixel, depth);
   const float visible = (1.0f - p_occluded) * ratios.visible, occluded = p_occluded * ratios.occluded;
-  const float total = 1.0f + coverage * (visible + occluded - 1.0f);
+  const float total = (1.0f - coverage) + coverage * (visible + occluded);
   const double not_occluded = visible / (visible + occluded);
   ++sum.measured_pixels;
   sum.visible_pixels += (1.0f - p_occluded) * ratios.surface / (visible + occluded);
@@ -55,6 +56,13 @@ void assessPixel(const MeasuredPixel& pixel, float depth, float coverage, float 
   // A visible pixel's log density has the mean of a Gaussian's: half a nat below its peak.
   const double peak = (1.0f - p_occluded) * pixel.visible_peak;
   sum.expected += not_occluded * (std::log(1.0 + coverage * (peak - 1.0)) - 0.5);
+}
+
+/// A table or board that is taken for one of the object's faces goes on beyond the outline; an object ends there.
+void assessSurroundings(const MeasuredPixel& pixel, float surface_depth, PoseAssessment& sum) {
+  constexpr float kSameSurfaceStddevs = 4.0f;
+  ++sum.surrounding_pixels;
+  if (std::abs(pixel.depth - surface_depth) * pixel.inverse_stddev < kSameSurfaceStddevs) ++sum.continued_pixels;
 }
 
 }  // namespace
@@ -208,10 +216,11 @@ Linearisation DepthLikelihood::linearise(const Pose& T_camera_centre, double ext
 void DepthLikelihood::update(const std::vector<Pose>& T_camera_centre, std::vector<double>& log_likelihoods) {
   prepareRegion(T_camera_centre);
   log_likelihoods.assign(T_camera_centre.size(), 0.0);
-  pool_.run(static_cast<int>(T_camera_centre.size()), [&](int index, int thread) {
+  const auto task = [&](int index, int thread) {
     const auto i = static_cast<std::size_t>(index);
     log_likelihoods[i] = updateParticle(index, T_camera_centre[i], thread);
-  });
+  };
+  pool_.run(static_cast<int>(T_camera_centre.size()), std::cref(task));  // by reference: nothing is allocated
 }
 
 double DepthLikelihood::updateParticle(int index, const Pose& T_camera_centre, int thread) {
@@ -233,14 +242,20 @@ PoseAssessment DepthLikelihood::assess(const Pose& T_camera_centre, int thread) 
   result.log_likelihood = tileLogLikelihood(tile, data, beliefs, 0.0f);
   for (int row = 0; row < tile.rows; ++row) {
     for (int col = 0; col < tile.cols; ++col) {
-      if (!(tile.depth()[row * tile.stride + col] < std::numeric_limits<float>::infinity())) continue;
-      ++result.covered_pixels;
+      const int cell = row * tile.stride + col;
+      const bool is_covered = tile.depth()[cell] < std::numeric_limits<float>::infinity();
+      if (!(tile.coverage()[cell] > 0.0f)) continue;
+      result.covered_pixels += is_covered ? 1 : 0;
       const MeasuredPixel pixel = image_.pixel(tile.row_begin + row, tile.col_begin + col);
       if (pixel.depth <= 0.0f) continue;
+      if (!is_covered) {
+        assessSurroundings(pixel, tile.soft_depth()[cell], result);
+        continue;
+      }
       const float* tile_beliefs = beliefs[row / kTileSize * tile.tile_cols + col / kTileSize];
       const float stored = tile_beliefs != nullptr ? tile_beliefs[row % kTileSize * kTileSize + col % kTileSize]
                                                    : data.belief.unmeasured;
-      const float depth = tile.depth()[row * tile.stride + col], coverage = tile.coverage()[row * tile.stride + col];
+      const float depth = tile.depth()[cell], coverage = tile.coverage()[cell];
       assessPixel(pixel, depth, coverage, believedOcclusion(data.model, memory_.probability(stored), pixel, depth),
                   data.model, result);
     }

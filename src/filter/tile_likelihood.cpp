@@ -47,13 +47,18 @@ bool readCell(const DepthTile& tile, const PixelPlanes& planes, int row, int col
   return cell.coverage > 0.0f && cell.pixel.depth > 0.0f;
 }
 
+/// Ratio when the beam meets the object with a probability; exact for 1, also where the ratio is tiny.
+float mixWithMiss(float coverage, float ratio) {
+  return (1.0f - coverage) + coverage * ratio;
+}
+
 CellTerms cellTerms(const CoveredCell& cell, const TileLikelihoodInput& input, float stored) {
   CellTerms terms;
   terms.ratios = pixelRatios(input.model, cell.pixel, cell.depth);
   terms.p_occluded =
       believedOcclusion(input.model, input.belief.stationary + input.belief.scale * stored, cell.pixel, cell.depth);
   terms.hit = terms.ratios.visible + terms.p_occluded * (terms.ratios.occluded - terms.ratios.visible);
-  const float total = 1.0f + cell.coverage * (terms.hit - 1.0f);
+  const float total = mixWithMiss(cell.coverage, terms.hit);
   terms.total = total > kLeastFactor ? total : kLeastFactor;
   return terms;
 }
@@ -188,7 +193,7 @@ double updateTileBeliefsScalar(const DepthTile& tile, const TileLikelihoodInput&
     float& stored = tile_beliefs[index][in_tile];
     const CellTerms terms = cellTerms(cell, input, stored);
     // A beam that misses the object says nothing about occlusion: that share of the belief stays.
-    const float occluded = terms.p_occluded * (1.0f + cell.coverage * (terms.ratios.occluded - 1.0f));
+    const float occluded = terms.p_occluded * mixWithMiss(cell.coverage, terms.ratios.occluded);
     stored = (occluded / terms.total - input.belief.stationary) * input.belief.inverse_scale;
     return terms.total;
   });

@@ -144,6 +144,10 @@ HWY_INLINE void widen(Cells& cells, float extra_stddev_m) {
   cells.inverse_stddev = widened;
 }
 
+HWY_INLINE V mixWithMiss(V coverage, V ratio) {
+  return hn::Add(hn::Sub(set(1.0f), coverage), hn::Mul(coverage, ratio));
+}
+
 template <bool kPaper>
 HWY_INLINE Terms cellTerms(const Cells& cells, const TileLikelihoodInput& input, V stored) {
   const D d;
@@ -170,8 +174,7 @@ HWY_INLINE Terms cellTerms(const Cells& cells, const TileLikelihoodInput& input,
                           hn::Mul(hn::Mul(share, share), hn::Sub(set(3.0f), hn::Add(share, share))));
   terms.p_occluded = hn::Max(believed, least);
   terms.hit = hn::Add(terms.visible, hn::Mul(terms.p_occluded, hn::Sub(terms.occluded, terms.visible)));
-  terms.total =
-      hn::Max(hn::Add(one, hn::Mul(cells.coverage, hn::Sub(terms.hit, one))), set(tile_likelihood::kLeastFactor));
+  terms.total = hn::Max(mixWithMiss(cells.coverage, terms.hit), set(tile_likelihood::kLeastFactor));
   return terms;
 }
 
@@ -202,8 +205,7 @@ HWY_INLINE void visitTile(const DepthTile& tile, const TileLikelihoodInput& inpu
       V& product = products[sumVector(row, part)];
       product = hn::Mul(product, hn::IfThenElse(cells.valid, terms.total, one));
       if (kUpdate) {
-        const V occluded =
-            hn::Mul(terms.p_occluded, hn::Add(one, hn::Mul(cells.coverage, hn::Sub(terms.occluded, one))));
+        const V occluded = hn::Mul(terms.p_occluded, mixWithMiss(cells.coverage, terms.occluded));
         const V moved = hn::Mul(hn::Sub(hn::Div(occluded, terms.total), set(input.belief.stationary)),
                                 set(input.belief.inverse_scale));
         hn::Store(hn::IfThenElse(cells.valid, moved, stored), d, posterior + in_tile);

@@ -29,6 +29,20 @@ RasterTransform::RasterTransform(const Pose& T_camera_object, const PinholeCamer
   z[3] = static_cast<float>(t.z());
 }
 
+void RasterScratch::reserve(std::size_t faces) {
+  const std::size_t needed = faces + kSlack;
+  if (large.size() >= needed) return;
+  for (PendingFaces& list : pending) {
+    for (auto& array : list.corner) array.resize(needed);
+    for (auto& array : list.plane) array.resize(needed);
+    list.id.resize(needed);
+  }
+  large.resize(needed);
+  hit_cell.resize(kHitCapacity + kSlack);
+  hit_id.resize(kHitCapacity + kSlack);
+  hit_depth.resize(kHitCapacity + kSlack);
+}
+
 void rasterizeScalar(const FaceSet& faces, const RasterTransform& transform, DepthTile& tile) {
   for (std::size_t i = 0; i < faces.count; ++i) {
     const RasterFace face = makeRasterFace(faces, i, transform, tile);

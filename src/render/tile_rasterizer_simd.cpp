@@ -27,7 +27,6 @@ constexpr std::size_t kLanes = hn::MaxLanes(Floats());
 // with more cells, or a longer side (also for the range of 32-bit edge functions), are filled row by row.
 constexpr int kMostCells[RasterScratch::kSizes] = {2, 6, 24, 300};
 constexpr int kLongestSide = 32;
-constexpr std::size_t kHitCapacity = 4096;
 
 /// Camera coordinates and snapped pixel coordinates of one corner of every lane's face.
 struct Corner {
@@ -90,23 +89,6 @@ HWY_INLINE void packTo(D d, V value, M mask, hn::TFromD<D>* to) {
 #else
   hn::StoreU(hn::Compress(value, mask), d, to);
 #endif
-}
-
-void reserve(RasterScratch& scratch, std::size_t faces) {
-  const std::size_t needed = faces + 2 * kLanes;
-  if (scratch.large.size() < needed) {
-    for (PendingFaces& pending : scratch.pending) {
-      for (auto& array : pending.corner) array.resize(needed);
-      for (auto& array : pending.plane) array.resize(needed);
-      pending.id.resize(needed);
-    }
-    scratch.large.resize(needed);
-  }
-  if (scratch.hit_cell.size() < kHitCapacity + 2 * kLanes) {
-    scratch.hit_cell.resize(kHitCapacity + 2 * kLanes);
-    scratch.hit_id.resize(kHitCapacity + 2 * kLanes);
-    scratch.hit_depth.resize(kHitCapacity + 2 * kLanes);
-  }
 }
 
 /// Some lanes' faces.
@@ -252,7 +234,7 @@ void fillSmall(const PendingFaces& faces, DepthTile& tile, RasterScratch& scratc
           if (kWithFaces) packTo(di, id, inside, &scratch.hit_id[hits]);
           packTo(di, hn::Add(row_cell, col), inside, &scratch.hit_cell[hits]);
           hits += hn::CountTrue(di, inside);
-          if (hits >= kHitCapacity) {
+          if (hits >= RasterScratch::kHitCapacity) {
             flushHits<kWithFaces>(hits, tile, scratch);
             hits = 0;
           }
@@ -314,7 +296,7 @@ void fillLarge(const FaceSet& faces, const RasterTransform& transform, DepthTile
 
 void Rasterize(const FaceSet& faces, const RasterTransform& transform, bool with_faces, DepthTile& tile,
                RasterScratch& scratch) {
-  reserve(scratch, faces.padded);
+  scratch.reserve(faces.padded);
   selectFaces(faces, transform, tile, scratch);
   if (with_faces) {
     for (const PendingFaces& pending : scratch.pending) fillSmall<true>(pending, tile, scratch);

@@ -70,6 +70,7 @@ const FaceSet& TileRenderer::facesFor(const RenderObject& object, const Eigen::V
   }
   // One pose among many may lie far from the others: for it all faces are drawn.
   if (facing_object_ == &object && ++misses_ < kMissesToMove) return object.faces;
+  scratch_.reserve(object.faces.padded);
   facing_object_ = &object;
   facing_eye_ = eye_object;
   facing_radius_ = kSharedFacingAngle * eye_object.norm();

@@ -8,6 +8,12 @@ namespace {
 
 // Fewer pixels than this say nothing about the fit.
 constexpr int kMinPixels = 8;
+constexpr double kContinuedShare = 0.7;
+
+bool isPartOfASurface(const PoseAssessment& assessment) {
+  return assessment.surrounding_pixels >= kMinPixels &&
+         assessment.continued_pixels > kContinuedShare * assessment.surrounding_pixels;
+}
 
 }  // namespace
 
@@ -42,6 +48,8 @@ void StatusMonitor::classify(const PoseAssessment& assessment, double dt_s) {
                         "if this lasts";
   } else if (state_ == TrackerState::kLost || state_ == TrackerState::kInitializing) {
     if (misfit || unmeasured || hidden) return;
+    // Part of a larger surface fits as well as a face of the object does: not enough to have found it.
+    if (state_ == TrackerState::kLost && isPartOfASurface(assessment)) return;
     state_ = TrackerState::kTracking;
     reason_.clear();
   } else if (unmeasured) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tabulated single-precision pixel ratios of the hot loop against the double-precision reference.
+// The single-precision pixel ratios of the hot loop against the double-precision reference.
 #include "depth_object_tracker/model/measured_image.h"
 
-#include "depth_object_tracker/model/normal_table.h"
 #include "depth_object_tracker/model/pixel_likelihood.h"
 
 #include <gtest/gtest.h>
@@ -32,8 +31,13 @@ class RowImage {
     image_.prepare(image_.imageBox());
   }
 
-  const MeasuredPixel& pixel(int col) const { return image_.pixel(0, col); }
-  const MeasuredImage& image() const { return image_; }
+  MeasuredPixel pixel(int col) const { return image_.pixel(0, col); }
+  PixelRatios ratios(int col, float rendered_depth_m) const {
+    return pixelRatios(image_.model(), pixel(col), rendered_depth_m);
+  }
+  float believedOcclusion(float p_occluded, int col, float rendered_depth_m) const {
+    return depth_object_tracker::believedOcclusion(image_.model(), p_occluded, pixel(col), rendered_depth_m);
+  }
 
  private:
   std::vector<float> readings_;
@@ -58,7 +62,7 @@ TEST_P(WithModel, RatiosEqualTheReference) {
     for (double t = -12.0; t <= 12.0; t += 0.0937) {
       const auto d = static_cast<float>(z + t * stddev);
       if (d <= 0.05f) continue;
-      const PixelRatios ratios = row.image().ratios(row.pixel(static_cast<int>(i)), d);
+      const PixelRatios ratios = row.ratios(static_cast<int>(i), d);
       const double visible = visibleDensity(z, d, config_) / miss, occluded = occludedDensity(z, d, config_) / miss;
       worst = std::max(
           {worst, std::abs(std::log(ratios.visible / visible)), std::abs(std::log(ratios.occluded / occluded))});
@@ -68,7 +72,7 @@ TEST_P(WithModel, RatiosEqualTheReference) {
       ASSERT_NEAR(ratios.surface, visible - tail, 1e-3 * visible) << "z = " << z << ", d = " << d;
     }
   }
-  std::printf("largest deviation of the tables: %.2e nat\n", worst);
+  std::printf("largest deviation of the ratios: %.2e nat\n", worst);
 }
 
 TEST_P(WithModel, RatiosEqualTheReferenceFarFromTheReading) {
@@ -77,7 +81,7 @@ TEST_P(WithModel, RatiosEqualTheReferenceFarFromTheReading) {
   for (std::size_t i = 0; i < readings.size(); ++i) {
     for (const float d : {0.06f, 0.2f, 0.5f, 1.1f, 2.5f, 5.0f, 9.0f}) {
       const double z = readings[i], miss = missDensity(z, config_);
-      const PixelRatios ratios = row.image().ratios(row.pixel(static_cast<int>(i)), d);
+      const PixelRatios ratios = row.ratios(static_cast<int>(i), d);
       EXPECT_NEAR(ratios.visible, visibleDensity(z, d, config_) / miss,
                   1e-3 * visibleDensity(z, d, config_) / miss + 1e-12);
       EXPECT_NEAR(ratios.occluded, occludedDensity(z, d, config_) / miss,
@@ -91,11 +95,10 @@ TEST(MeasuredImage, ReadingsFarInFrontCountAsOccludedAtLeastHalf) {
   config.min_p_occluded_in_front = 0.5;
   const RowImage row({1.0f}, config);
   const auto stddev = static_cast<float>(surfaceNoiseStddev(1.0, config));
-  const MeasuredPixel& pixel = row.pixel(0);
   for (const float p : {0.0f, 0.1f, 0.25f, 0.5f, 0.9f, 1.0f}) {
     float last = p;
     for (float t = -20.0f; t < 60.0f; t += 0.25f) {
-      const float believed = row.image().believedOcclusion(p, pixel, 1.0f + t * stddev);
+      const float believed = row.believedOcclusion(p, 0, 1.0f + t * stddev);
       ASSERT_GE(believed, last - 1e-6f) << "the farther in front, the more";
       if (t <= 1.0f) {
         ASSERT_NEAR(believed, p, 1e-2f) << "readings on or behind the surface are left alone";
@@ -105,7 +108,20 @@ TEST(MeasuredImage, ReadingsFarInFrontCountAsOccludedAtLeastHalf) {
     EXPECT_NEAR(last, std::max(p, 0.5f), 1e-6f);
   }
   config.min_p_occluded_in_front = 0.0;
-  EXPECT_EQ(RowImage({1.0f}, config).image().believedOcclusion(0.1f, pixel, 2.0f), 0.1f) << "0 turns it off";
+  EXPECT_EQ(RowImage({1.0f}, config).believedOcclusion(0.1f, 0, 2.0f), 0.1f) << "0 turns it off";
+}
+
+TEST(MeasuredImage, TheFloorOfTheBeliefRisesOverItsRamp) {
+  PixelModelConfig config;
+  config.min_p_occluded_in_front = 0.5;
+  const RowImage row({1.0f}, config);
+  const auto stddev = static_cast<float>(surfaceNoiseStddev(1.0, config));
+  const auto floorAt = [&](float t) { return row.believedOcclusion(0.0f, 0, 1.0f + t * stddev); };
+  EXPECT_EQ(floorAt(kInFrontBegin - 0.01f), 0.0f);
+  EXPECT_GT(floorAt(kInFrontBegin + 0.1f), 0.0f);
+  EXPECT_NEAR(floorAt(0.5f * (kInFrontBegin + kInFrontEnd)), 0.25f, 1e-4f);
+  EXPECT_LT(floorAt(kInFrontEnd - 0.1f), 0.5f);
+  EXPECT_EQ(floorAt(kInFrontEnd + 0.01f), 0.5f);
 }
 
 TEST(MeasuredImage, ReadingsWithoutInformationAreMarked) {
@@ -118,36 +134,40 @@ TEST(MeasuredImage, ReadingsWithoutInformationAreMarked) {
 
 TEST(MeasuredImage, ReadsOnlyTheBoxesAskedForAndKeepsThem) {
   PinholeCamera camera;
-  camera.width = 12;
-  camera.height = 9;
+  camera.width = 30;
+  camera.height = 27;
   camera.fx = camera.fy = 10.0;
-  std::vector<std::uint16_t> counts(12 * 9);
+  std::vector<std::uint16_t> counts(30 * 27);
   for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = static_cast<std::uint16_t>(500 + i);
   DepthImageView view;
   view.data = reinterpret_cast<const std::uint8_t*>(counts.data());
-  view.width = 12;
-  view.height = 9;
-  view.step = 24;
+  view.width = 30;
+  view.height = 27;
+  view.step = 60;
   MeasuredImage image((PixelModelConfig()));
   image.setImage(view, makeSamplingGrid(camera, 1));
-  const CellBox first{2, 4, 5, 8}, second{6, 8, 1, 3};
+  const CellBox first{9, 12, 17, 20}, second{17, 20, 2, 5};  // in tiles that do not touch
   EXPECT_FALSE(image.isPrepared(first));
   image.prepare(first);
   EXPECT_TRUE(image.isPrepared(first));
+  EXPECT_TRUE(image.isPrepared({8, 16, 16, 24})) << "whole tiles are";
+  EXPECT_FALSE(image.isPrepared({8, 16, 15, 24})) << "and nothing beyond";
   EXPECT_FALSE(image.isPrepared(second));
   EXPECT_TRUE(image.isPrepared({-5, -1, 0, 3})) << "cells outside of the image are never needed";
   image.prepare(second);
-  for (int row = 2; row < 8; ++row) {
-    for (int col = 1; col < 8; ++col)
-      EXPECT_FLOAT_EQ(image.pixel(row, col).depth, 0.001f * static_cast<float>(500 + 12 * row + col));
+  for (int row = 9; row < 20; ++row) {
+    for (int col = 2; col < 20; ++col)
+      EXPECT_FLOAT_EQ(image.pixel(row, col).depth, 0.001f * static_cast<float>(500 + 30 * row + col));
   }
-  counts[12 * 3 + 6] = 4000;
-  image.prepare({0, 9, 0, 12});
-  EXPECT_FLOAT_EQ(image.pixel(3, 6).depth, 0.001f * (500 + 12 * 3 + 6)) << "a pixel is read once a frame";
-  EXPECT_FLOAT_EQ(image.pixel(8, 11).depth, 0.001f * (500 + 12 * 8 + 11));
+  counts[30 * 11 + 18] = 4000;
+  counts[30 * 26 + 29] = 3000;
+  image.prepare({0, 27, 0, 30});
+  EXPECT_FLOAT_EQ(image.pixel(11, 18).depth, 0.001f * (500 + 30 * 11 + 18)) << "a pixel is read once a frame";
+  EXPECT_FLOAT_EQ(image.pixel(26, 29).depth, 3.0f) << "and not before it is asked for";
+  EXPECT_FLOAT_EQ(image.pixel(26, 28).depth, 0.001f * (500 + 30 * 26 + 28));
   image.setImage(view, makeSamplingGrid(camera, 1));
   image.prepare(first);
-  EXPECT_FLOAT_EQ(image.pixel(3, 6).depth, 4.0f) << "a new frame is read anew";
+  EXPECT_FLOAT_EQ(image.pixel(11, 18).depth, 4.0f) << "a new frame is read anew";
   EXPECT_EQ(image.source(), view.data);
 }
 
@@ -194,17 +214,6 @@ TEST(MeasuredImage, ValidFractionCountsReadingsInRange) {
   MeasuredImage image((PixelModelConfig()));
   image.setImage(view, makeSamplingGrid(camera, 2));
   EXPECT_NEAR(image.validFraction(), 0.75, 1e-9);
-}
-
-TEST(NormalTable, IsWithinItsStatedError) {
-  const NormalTable& table = NormalTable::instance();
-  for (double t = -9.0; t <= 9.0; t += 0.00171) {
-    ASSERT_NEAR(table.bell(static_cast<float>(t)), std::exp(-0.5 * t * t), 1e-5) << t;
-    ASSERT_NEAR(table.cdf(static_cast<float>(t)), 0.5 * std::erfc(-t / std::sqrt(2.0)), 1e-5) << t;
-  }
-  EXPECT_EQ(table.cdf(1e30f), 1.0f);
-  EXPECT_EQ(table.cdf(-1e30f), 0.0f);
-  EXPECT_EQ(table.bell(std::numeric_limits<float>::infinity()), 0.0f);
 }
 
 }  // namespace

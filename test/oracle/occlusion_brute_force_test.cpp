@@ -124,10 +124,19 @@ class OcclusionPosterior : public testing::TestWithParam<OccluderModel> {
     return log_likelihoods;
   }
 
-  double belief(int particle, int pixel) {
-    const OcclusionMemory& memory = likelihood_->memory();
-    return memory.probability(memory.particle(particle)[memory.cell(0, pixel)]);
+  /// A particle's stored values of the tile that holds a cell; nullptr = it never measured there.
+  const float* tileOf(int particle, int row, int col) {
+    const OcclusionTiles& memory = likelihood_->memory();
+    return memory.tile(particle, row / kTileSize * memory.tileCols() + col / kTileSize);
   }
+
+  double belief(int particle, int row, int col) {
+    const OcclusionTiles& memory = likelihood_->memory();
+    const float* tile = tileOf(particle, row, col);
+    return memory.probability(tile != nullptr ? tile[row % kTileSize * kTileSize + col % kTileSize]
+                                              : memory.unmeasured());
+  }
+  double belief(int particle, int pixel) { return belief(particle, 0, pixel); }
 
   void expectBeliefs(int particle, const BruteForce::Result& expected, std::size_t frame) {
     for (int i = 0; i < kPixels; ++i) {
@@ -188,7 +197,7 @@ TEST_P(OcclusionPosterior, IsRememberedByAFilterThatOnlyWeighsParticles) {
   const double last =
       brute_force.sum(kSteadyPast, all).log_evidence - brute_force.sum(kSteadyPast, all - 1).log_evidence;
   EXPECT_NEAR(log_likelihoods[0], last, 1e-4);
-  for (int i = 0; i < kPixels; ++i) ASSERT_TRUE(likelihood_->memory().inRegion(0, i));
+  for (int i = 0; i < 2; ++i) ASSERT_NE(tileOf(i, 0, 0), nullptr) << "particle " << i;
   expectBeliefs(0, brute_force.sum(kSteadyPast, all), kFrames.size() - 1);
   expectBeliefs(1, brute_force.sum(kOtherPast, all), kFrames.size() - 1);
 }
@@ -223,7 +232,7 @@ TEST_P(OcclusionPosterior, AfterResamplingAllParticlesCountTheSame) {
 }
 
 TEST_P(OcclusionPosterior, ParticlesThatFlyApartAreAllRemembered) {
-  // The region grows while particles are weighed; the mean belief must follow it.
+  // Places are added while particles are weighed; the mean belief must follow.
   SamplingGrid wide = makeSamplingGrid(makeCamera(64, 48, 60.0), 1);
   const std::vector<float> readings(64 * 48, 0.8f);
   likelihood_->setImage(viewOf(readings, wide.camera), wide, 0.0);
@@ -234,10 +243,10 @@ TEST_P(OcclusionPosterior, ParticlesThatFlyApartAreAllRemembered) {
   for (std::size_t i = 0; i < 2; ++i) {
     const Eigen::Vector2d pixel = wide.camera.project(apart[i].translation());
     const int row = static_cast<int>(std::lround(pixel.y())), col = static_cast<int>(std::lround(pixel.x()));
-    const OcclusionMemory& memory = likelihood_->memory();
-    ASSERT_TRUE(memory.inRegion(row, col)) << "particle " << i;
+    const int particle = static_cast<int>(i);
+    ASSERT_NE(tileOf(particle, row, col), nullptr) << "particle " << i;
     const double expected = updatePixel(0.8f, 1.0, chain_.initial_p_occluded, pixel_).p_occluded;
-    EXPECT_NEAR(memory.probability(memory.particle(static_cast<int>(i))[memory.cell(row, col)]), expected, 1e-4);
+    EXPECT_NEAR(belief(particle, row, col), expected, 1e-4);
     const PoseAssessment assessment = likelihood_->assess(apart[i], 0);
     const double prior = updatePixel(0.8f, 1.0, chain_.initial_p_occluded, pixel_).log_ratio;
     EXPECT_NEAR(assessment.log_likelihood, prior * assessment.measured_pixels,

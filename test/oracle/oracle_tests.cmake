@@ -5,6 +5,8 @@ add_tracker_test(model_oracle_tests SOURCES
 add_tracker_test(likelihood_oracle_tests SOURCES
   oracle/likelihood_gradient_test.cpp
   oracle/occlusion_brute_force_test.cpp)
+add_tracker_test(engine_oracle_tests SOURCES
+  oracle/engine_test.cpp)
 add_tracker_test(renderer_oracle_tests SOURCES
   oracle/renderer_test.cpp)
 add_tracker_test(filter_oracle_tests SOURCES

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One seed gives one result, byte for byte, on any number of threads.
+#include "depth_object_tracker/geometry/simd_target.h"
 #include "tracking_run.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 namespace depth_object_tracker {
@@ -51,6 +53,39 @@ TEST_P(Determinism, SameBytesOnAnyNumberOfThreadsAndEveryTime) {
   EXPECT_TRUE(once == bytesOfRun(2, 1, GetParam())) << "two threads differ from one";
   EXPECT_TRUE(once == bytesOfRun(3, 1, GetParam())) << "three threads differ from one";
   EXPECT_FALSE(once == bytesOfRun(1, 2, GetParam())) << "the seed must matter, else this test shows nothing";
+}
+
+TEST(Determinism, SameBytesWithEveryInstructionSet) {
+  const std::string best = bytesOfRun(1, 1, Proposal::kInformed);
+  for (const std::string& target : availableSimdTargets()) {
+    ASSERT_TRUE(selectSimdTarget(target));
+    EXPECT_TRUE(best == bytesOfRun(1, 1, Proposal::kInformed)) << target;
+  }
+  selectSimdTarget("auto");
+}
+
+TEST(Effort, LessTakesFewerParticlesAndPixelsAndStillTracks) {
+  ScriptedScene scene("drill", 9);
+  Pose truth = restingPose();
+  TrackingRun run(scene, truth);
+  const auto track = [&](double effort, int frames) {
+    run.setEffort(effort);
+    for (int k = 0; k < frames; ++k) {
+      truth = movedBy(truth, 0.1 / 30.0, 0, 0, {0, 0.01, 0});
+      run.step(truth);
+    }
+    return run.result();
+  };
+  const TrackerResult full = track(1.0, 5);
+  const TrackerResult less = track(0.1, 10);
+  const TrackerResult again = track(1.0, 5);
+  EXPECT_EQ(full.num_particles, TrackerConfig().filter.num_particles);
+  EXPECT_NEAR(less.num_particles, std::max(24.0, std::sqrt(0.1) * full.num_particles), 1.0);
+  EXPECT_LT(less.pixels, 0.7 * full.pixels);
+  EXPECT_EQ(again.num_particles, full.num_particles);
+  EXPECT_GT(again.pixels, 0.7 * full.pixels);
+  EXPECT_EQ(run.lostFrames(), 0);
+  EXPECT_LT(run.lastError(), 0.003);
 }
 
 }  // namespace

@@ -191,8 +191,7 @@ TEST_F(Motion, AnObjectThatLeavesTheImageIsReportedLost) {
   EXPECT_EQ(run.result().score, 0.0);
 }
 
-// Known gap: the loss is reported, but the particles drift off, and the object is not found when it is put back.
-TEST_F(Motion, DISABLED_AnObjectThatIsTakenAwayIsReportedLostAndFoundWhenPutBack) {
+TEST_F(Motion, AnObjectThatIsTakenAwayIsReportedLostAndFoundWhenPutBack) {
   TrackingRun run(scene_, restingPose());
   run.rest(restingPose(), kSettleFrames);
   for (int k = 0; k < 20; ++k) run.step(std::nullopt);

@@ -20,6 +20,8 @@ class TrackingRun {
     tracker_.initialise(movedBy(first, 0.004, -0.003, 0.004, {0.03, -0.04, 0.02}));
   }
 
+  void setEffort(double effort) { tracker_.setEffort(effort); }
+
   /// One frame `dt_s` after the last one.
   const TrackerResult& step(const std::optional<Pose>& truth, const std::optional<Board>& board = std::nullopt,
                             double dt_s = kFrameS) {

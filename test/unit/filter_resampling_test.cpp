@@ -133,6 +133,22 @@ TEST(ResampleSystematic, OneParticleTakesAll) {
   EXPECT_TRUE(resampleSystematic({}, 0.7).empty());
 }
 
+TEST(ResampleSystematic, AnotherCountKeepsProportionsAndSlots) {
+  const std::vector<double> weights = randomWeights(50, 3);
+  for (const std::size_t count : {1u, 7u, 49u, 51u, 500u}) {
+    const std::vector<int> source = resampleSystematic(weights, 0.4, count);
+    ASSERT_EQ(source.size(), count);
+    std::vector<int> children(weights.size(), 0);
+    for (const int parent : source) ++children.at(static_cast<std::size_t>(parent));
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      EXPECT_NEAR(children[i], static_cast<double>(count) * weights[i], 1.0) << count << " slots, particle " << i;
+      if (i < count && children[i] > 0) {
+        EXPECT_EQ(source[i], static_cast<int>(i)) << "survives but has moved";
+      }
+    }
+  }
+}
+
 TEST(ResampleSystematic, ParticlesWithoutWeightNeverSurvive) {
   std::vector<double> weights(30, 0.0);
   for (std::size_t i = 0; i < 30; i += 3) weights[i] = 0.1 * (1.0 - 1e-14);  // the sum falls short by rounding

@@ -31,7 +31,7 @@ TEST(TrackerParameters, EveryFieldIsInTheTable) {
   const std::size_t num_fields = countFields<PixelModelConfig>() + countFields<OcclusionChainConfig>() +
                                  countFields<ProcessConfig>() + countFields<FilterConfig>() +
                                  countFields<ResolutionConfig>() + countFields<InitialisationConfig>() +
-                                 countFields<StatusConfig>();
+                                 countFields<StatusConfig>() + countFields<BudgetConfig>();
   EXPECT_EQ(listTrackerParameters().size(), num_fields)
       << "a field of a config struct has no line in src/tracker/tracker_parameters.cpp";
 }

@@ -1,6 +1,7 @@
 # unit tests
 add_tracker_test(geometry_unit_tests SOURCES
   unit/depth_image_test.cpp
+  unit/level_of_detail_test.cpp
   unit/mesh_loader_test.cpp
   unit/pinhole_camera_test.cpp
   unit/pose_test.cpp
@@ -10,7 +11,7 @@ add_tracker_test(parameter_unit_tests SOURCES
   unit/object_model_test.cpp
   unit/tracker_parameters_test.cpp)
 add_tracker_test(filter_unit_tests SOURCES
-  unit/filter_occlusion_memory_test.cpp
+  unit/filter_occlusion_tiles_test.cpp
   unit/filter_pose_statistics_test.cpp
   unit/filter_random_test.cpp
   unit/filter_resampling_test.cpp
@@ -18,6 +19,7 @@ add_tracker_test(filter_unit_tests SOURCES
 add_tracker_test(model_unit_tests SOURCES
   unit/model_occlusion_chain_test.cpp
   unit/model_process_test.cpp
+  unit/frame_budget_test.cpp
   unit/tracker_time_and_status_test.cpp)
 
 # The shipped meshes are what the script makes, byte for byte.

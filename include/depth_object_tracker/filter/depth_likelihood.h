@@ -22,6 +22,8 @@ struct PoseAssessment {
   double log_likelihood = 0.0;  ///< [nat]
   double achieved = 0.0;        ///< log ratio [nat] summed with the pixels' probability not to be occluded
   double expected = 0.0;        ///< ... and what the sensor model expects of it at the true pose
+  int surrounding_pixels = 0;   ///< measured pixels just outside of the outline
+  int continued_pixels = 0;     ///< ... of which with a reading that carries on the surface beside them
 };
 
 class DepthLikelihood : public PoseLikelihood {

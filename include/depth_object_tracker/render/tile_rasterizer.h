@@ -36,7 +36,12 @@ struct PendingFaces {
 
 /// Memory that the rasteriser uses between its stages.
 struct RasterScratch {
+  /// Makes room, once for all, for sets of up to this many faces.
+  void reserve(std::size_t faces);
+
   static constexpr std::size_t kSizes = 4;
+  static constexpr std::size_t kHitCapacity = 4096;  ///< pixels found that wait to be written
+  static constexpr std::size_t kSlack = 32;          ///< whole vectors are written beyond the end
   PendingFaces pending[kSizes];       ///< by the number of pixels in their bounding boxes, small ones first
   AlignedVector<std::int32_t> large;  ///< indices of faces larger than that
   std::size_t num_large = 0;

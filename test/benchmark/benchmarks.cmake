@@ -1,0 +1,43 @@
+# Programs that measure speed; not part of the tests. engine_benchmark is installed beside track_sequence.
+add_library(depth_object_tracker_benchmark_support STATIC
+  ${CMAKE_CURRENT_LIST_DIR}/benchmark_object.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/benchmark_scene.cpp
+)
+target_link_libraries(depth_object_tracker_benchmark_support
+  PUBLIC depth_object_tracker_core
+  PRIVATE depth_object_tracker_warnings)
+
+add_executable(engine_benchmark
+  ${CMAKE_CURRENT_LIST_DIR}/allocation_counter.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/benchmark_report.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/engine_benchmark.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/machine_info.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/memory_use.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/stage_timing.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/update_timing.cpp
+)
+target_link_libraries(engine_benchmark PRIVATE
+  depth_object_tracker_benchmark_support depth_object_tracker_warnings CLI11::CLI11 nlohmann_json::nlohmann_json)
+target_compile_definitions(engine_benchmark PRIVATE
+  PROJECT_SOURCE_FOLDER="${PROJECT_SOURCE_DIR}" BUILD_TYPE="${CMAKE_BUILD_TYPE}")
+
+find_package(benchmark QUIET)
+if(benchmark_FOUND)
+  add_executable(stage_benchmarks ${CMAKE_CURRENT_LIST_DIR}/stage_benchmarks.cpp)
+  target_link_libraries(stage_benchmarks PRIVATE
+    depth_object_tracker_benchmark_support depth_object_tracker_warnings benchmark::benchmark)
+else()
+  message(STATUS "depth_object_tracker: without stage_benchmarks; Google Benchmark (libbenchmark-dev) was not found")
+endif()
+
+if(WITH_ROS)
+  install(TARGETS engine_benchmark RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+else()
+  install(TARGETS engine_benchmark RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+if(BUILD_TESTS)
+  # That it runs and covers the pixels it means to; how quick it is, is nobody's test.
+  add_test(NAME engine_benchmark_runs COMMAND engine_benchmark --quick)
+  set_tests_properties(engine_benchmark_runs PROPERTIES TIMEOUT 300)
+endif()
