@@ -57,7 +57,7 @@ CellTerms cellTerms(const CoveredCell& cell, const TileLikelihoodInput& input, f
   terms.ratios = pixelRatios(input.model, cell.pixel, cell.depth);
   terms.p_occluded =
       believedOcclusion(input.model, input.belief.stationary + input.belief.scale * stored, cell.pixel, cell.depth);
-  terms.hit = terms.ratios.visible + terms.p_occluded * (terms.ratios.occluded - terms.ratios.visible);
+  terms.hit = (1.0f - terms.p_occluded) * terms.ratios.visible + terms.p_occluded * terms.ratios.occluded;
   const float total = mixWithMiss(cell.coverage, terms.hit);
   terms.total = total > kLeastFactor ? total : kLeastFactor;
   return terms;

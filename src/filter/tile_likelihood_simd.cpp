@@ -173,7 +173,8 @@ HWY_INLINE Terms cellTerms(const Cells& cells, const TileLikelihoodInput& input,
   const V least = hn::Mul(set(input.model.min_p_occluded_in_front),
                           hn::Mul(hn::Mul(share, share), hn::Sub(set(3.0f), hn::Add(share, share))));
   terms.p_occluded = hn::Max(believed, least);
-  terms.hit = hn::Add(terms.visible, hn::Mul(terms.p_occluded, hn::Sub(terms.occluded, terms.visible)));
+  terms.hit =
+      hn::Add(hn::Mul(hn::Sub(one, terms.p_occluded), terms.visible), hn::Mul(terms.p_occluded, terms.occluded));
   terms.total = hn::Max(mixWithMiss(cells.coverage, terms.hit), set(tile_likelihood::kLeastFactor));
   return terms;
 }

@@ -368,9 +368,7 @@ class RandomFrame {
     beliefs_.resize(num_tiles);
     for (OcclusionTile& tile : beliefs_) {
       for (float& value : tile.values) {
-        // The chain leaves no belief nearer to 1 than this between two images (0.013 at 30 Hz); single precision knows
-        // 1 - p to 1e-7 only, which is much when visible is a thousand times as likely.
-        const auto probability = static_cast<float>(std::clamp(uniform(-0.1, 1.1), 0.0, 0.9995));
+        const auto probability = static_cast<float>(std::clamp(uniform(-0.1, 1.1), 0.0, 1.0));
         value = (probability - kBelief.stationary) * kBelief.inverse_scale;
       }
     }

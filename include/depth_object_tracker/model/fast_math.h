@@ -59,7 +59,7 @@ inline float fastLog(float x) {
   return (m + y) + exponent * kLn2High;
 }
 
-/// Upper tail 1 - Phi(x) of the normal distribution, x >= 0; absolute error below 1e-7.
+/// Upper tail 1 - Phi(x) of the normal distribution, x >= 0; absolute error below 3e-7.
 /// @param bell exp(-x^2 / 2)
 inline float fastNormalTail(float x, float bell) {
   using namespace fast_math;
