@@ -21,16 +21,19 @@ double boundingRadius(const TriangleMesh& mesh, const Eigen::Vector3d& centre) {
   return std::sqrt(squared);
 }
 
-/// How far a simplified mesh may be from the surface [m]. Noise averages out over the pixels, the error of a mesh does
-/// so much less: the more pixels, the smaller a share of the noise it may be.
-double allowedLevelError(double depth_m, double radius_px, const PixelModelConfig& config) {
-  constexpr double kLargestShare = 0.1, kShareTimesRadius = 2.3;
-  return std::min(kLargestShare, kShareTimesRadius / radius_px) * surfaceNoiseStddev(depth_m, config);
+/// How far (rms) a simplified mesh may be from the surface [m]: little against the noise of a pixel, and against its
+/// size on the object. Noise averages out over the pixels, the error of a mesh much less.
+/// @param cell_m [m] side of a grid cell at the object.
+double allowedLevelError(double depth_m, double cell_m, const PixelModelConfig& config) {
+  constexpr double kShareOfNoise = 0.1, kShareOfCell = 0.025;
+  return std::min(kShareOfNoise * surfaceNoiseStddev(depth_m, config), kShareOfCell * cell_m);
 }
 
-std::vector<RenderObject> makeRenderLevels(const TriangleMesh& mesh, const PixelModelConfig& config) {
+constexpr double kCoarsestLevelErrorM = 0.002;
+
+std::vector<RenderObject> makeRenderLevels(const TriangleMesh& mesh, double max_error_m) {
   std::vector<RenderObject> levels;
-  for (const MeshLevel& level : makeLevels(mesh, allowedLevelError(config.max_depth_m, 1.0, config))) {
+  for (const MeshLevel& level : makeLevels(mesh, max_error_m)) {
     levels.emplace_back(level.mesh, level.error_m);
   }
   return levels;
@@ -69,8 +72,8 @@ void assessSurroundings(const MeasuredPixel& pixel, float surface_depth, PoseAss
 
 DepthLikelihood::DepthLikelihood(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object,
                                  const PixelModelConfig& pixel_config, const OcclusionChainConfig& occlusion_config,
-                                 int num_particles, int num_threads)
-    : levels_(makeRenderLevels(mesh, pixel_config)),
+                                 int num_particles, int num_threads, bool level_of_detail)
+    : levels_(makeRenderLevels(mesh, level_of_detail ? kCoarsestLevelErrorM : 0.0)),
       object_(&levels_.front()),
       pixel_config_(pixel_config),
       centre_object_(centre_object),
@@ -134,8 +137,7 @@ CellBox DepthLikelihood::prepareRegion(const std::vector<Pose>& T_camera_centre)
 void DepthLikelihood::chooseLevel(const std::vector<Pose>& T_camera_centre) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Pose& pose : T_camera_centre) nearest = std::min(nearest, std::max(pose.translation().z(), kNearPlaneM));
-  const double radius_px = image_.grid().camera.fx * radius_ / nearest;
-  const double allowed = allowedLevelError(nearest, radius_px, pixel_config_);
+  const double allowed = allowedLevelError(nearest, nearest / image_.grid().camera.fx, pixel_config_);
   object_ = &levels_.front();
   for (const RenderObject& level : levels_) {
     if (level.error_m <= allowed) object_ = &level;  // from fine to coarse

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kMargin = 3;  // two rings of soft outline, and one cell that is surely empty
 // Eyes this share of their distance apart share a selection of faces.
-constexpr float kSharedFacingAngle = 0.06f;
+constexpr float kSharedFacingAngle = 0.09f;
 constexpr int kMissesToMove = 6;
 
 bool reachesNearPlane(const RenderObject& object, const Pose& T_camera_object) {

@@ -8,11 +8,15 @@ namespace {
 
 // Fewer pixels than this say nothing about the fit.
 constexpr int kMinPixels = 8;
-constexpr double kContinuedShare = 0.7;
+constexpr double kFoundAfterS = 0.08;  // one image may fit by chance
 
-bool isPartOfASurface(const PoseAssessment& assessment) {
-  return assessment.surrounding_pixels >= kMinPixels &&
-         assessment.continued_pixels > kContinuedShare * assessment.surrounding_pixels;
+/// Score that a pose must have to count as found. Part of a wall or a table can fit about as well as a face of the
+/// object does, but goes on beyond its outline: the more of the outline does not stand out, the better the fit must be.
+double scoreOfAFind(const PoseAssessment& assessment) {
+  constexpr double kLeast = 0.55, kPerContinuedShare = 0.9;
+  const double continued =
+      static_cast<double>(assessment.continued_pixels) / std::max(1, assessment.surrounding_pixels);
+  return kLeast + kPerContinuedShare * continued;
 }
 
 }  // namespace
@@ -41,6 +45,7 @@ void StatusMonitor::classify(const PoseAssessment& assessment, double dt_s) {
   const bool misfit = outside || (!unmeasured && score_ < config_.lost_below_score && assessment.log_likelihood < 0.0);
   misfit_s_ = misfit ? misfit_s_ + dt_s : 0.0;
   if (misfit_s_ > config_.lost_after_s) {
+    if (state_ != TrackerState::kLost) found_s_ = 0.0;
     state_ = TrackerState::kLost;
     reason_ = outside ? "the object has left the image: bring it back into view or give a new initial pose"
                       : "the depth image does not fit the object at any pose near the last one: searching; give a new "
@@ -48,8 +53,10 @@ void StatusMonitor::classify(const PoseAssessment& assessment, double dt_s) {
                         "if this lasts";
   } else if (state_ == TrackerState::kLost || state_ == TrackerState::kInitializing) {
     if (misfit || unmeasured || hidden) return;
-    // Part of a larger surface fits as well as a face of the object does: not enough to have found it.
-    if (state_ == TrackerState::kLost && isPartOfASurface(assessment)) return;
+    if (state_ == TrackerState::kLost) {
+      found_s_ = score_ >= scoreOfAFind(assessment) ? found_s_ + dt_s : 0.0;
+      if (found_s_ < kFoundAfterS) return;
+    }
     state_ = TrackerState::kTracking;
     reason_.clear();
   } else if (unmeasured) {

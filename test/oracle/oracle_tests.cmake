@@ -7,6 +7,9 @@ add_tracker_test(likelihood_oracle_tests SOURCES
   oracle/occlusion_brute_force_test.cpp)
 add_tracker_test(engine_oracle_tests SOURCES
   oracle/engine_test.cpp)
+add_tracker_test(level_oracle_tests SOURCES
+  oracle/level_likelihood_test.cpp)
+target_compile_definitions(level_oracle_tests PRIVATE SHARED_DATA_FOLDER="${SHARED_DATA_FOLDER}")
 add_tracker_test(renderer_oracle_tests SOURCES
   oracle/renderer_test.cpp)
 add_tracker_test(filter_oracle_tests SOURCES

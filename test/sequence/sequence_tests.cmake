@@ -8,7 +8,5 @@ add_tracker_test(tracker_sequence_tests
     sequence/scripted_scene.cpp
   LIBRARIES depth_object_tracker_simulator depth_object_tracker_tools)
 
-# Tests skip themselves when the folder is not there; the environment variable DEPTH_OBJECT_TRACKER_DATA wins.
-set(SHARED_DATA_FOLDER ${PROJECT_SOURCE_DIR}/../shared/data CACHE PATH "Folder with scenes for recorded_scenes_tests")
 add_tracker_test(recorded_scenes_tests SOURCES sequence/recorded_scenes_test.cpp LIBRARIES depth_object_tracker_tools)
 target_compile_definitions(recorded_scenes_tests PRIVATE SHARED_DATA_FOLDER="${SHARED_DATA_FOLDER}")

@@ -29,8 +29,11 @@ struct PoseAssessment {
 class DepthLikelihood : public PoseLikelihood {
  public:
   /// @param centre_object [m] point of the object frame that poses are about.
+  /// @param level_of_detail render the coarsest simplified mesh whose error is small against pixels and noise; false:
+  /// always the mesh itself.
   DepthLikelihood(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object, const PixelModelConfig& pixel_config,
-                  const OcclusionChainConfig& occlusion_config, int num_particles, int num_threads);
+                  const OcclusionChainConfig& occlusion_config, int num_particles, int num_threads,
+                  bool level_of_detail = true);
 
   /// A new frame, dt_s >= 0 after the last one. A grid other than the last one's carries the beliefs over; a camera
   /// other than the last one's forgets them. The view must stay valid until the next call.

@@ -36,6 +36,7 @@ class StatusMonitor {
   double visible_fraction_ = 0.0;
   double score_ = 0.0;
   double misfit_s_ = 0.0;  ///< how long the estimate has not fitted
+  double found_s_ = 0.0;   ///< LOST: how long it has fitted again
 };
 
 }  // namespace depth_object_tracker
