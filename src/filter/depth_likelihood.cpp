@@ -25,7 +25,7 @@ double boundingRadius(const TriangleMesh& mesh, const Eigen::Vector3d& centre) {
 /// size on the object. Noise averages out over the pixels, the error of a mesh much less.
 /// @param cell_m [m] side of a grid cell at the object.
 double allowedLevelError(double depth_m, double cell_m, const PixelModelConfig& config) {
-  constexpr double kShareOfNoise = 0.1, kShareOfCell = 0.025;
+  constexpr double kShareOfNoise = 0.1, kShareOfCell = 0.03;
   return std::min(kShareOfNoise * surfaceNoiseStddev(depth_m, config), kShareOfCell * cell_m);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/render/tile_outline.h"
 
+#include <algorithm>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -18,7 +19,7 @@ using V = hn::Vec<D>;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
 
 struct RowPointers {
-  RowPointers(const float* plane, int row, const DepthTile& tile)
+  HWY_INLINE RowPointers(const float* plane, int row, const DepthTile& tile)
       : here(plane + row * tile.stride),
         above(row > 0 ? here - tile.stride : here),
         below(row + 1 < tile.rows ? here + tile.stride : here) {}
@@ -43,7 +44,7 @@ struct Rings {
 };
 
 template <bool kWithDistance>
-HWY_INLINE bool writeCells(const Rings& rings, const OutlineCoverage& outline, int col, int offset, DepthTile& tile) {
+HWY_INLINE V writeCells(const Rings& rings, const OutlineCoverage& outline, int col, int offset, DepthTile& tile) {
   const D d;
   const V empty = hn::Set(d, std::numeric_limits<float>::infinity()), zero = hn::Zero(d);
   const auto covered = hn::Lt(rings.depth, empty), beside = hn::Lt(rings.dilated, empty);
@@ -68,39 +69,41 @@ HWY_INLINE bool writeCells(const Rings& rings, const OutlineCoverage& outline, i
     distance = hn::IfThenElse(innermost, hn::Set(d, 2.5f), distance);
     hn::StoreU(distance, d, tile.distance() + offset);
   }
-  return !hn::AllFalse(d, hn::Gt(coverage, zero));
+  return coverage;
 }
 
-/// One row of cells, `rings(col)` tells about those from a column on.
+/// All cells, tile by tile; `ringsAt(row, col)` tells about those from a column on.
 template <bool kWithDistance, typename RingsAt>
-HWY_INLINE void writeRow(int row, const OutlineCoverage& outline, DepthTile& tile, const RingsAt& ringsAt) {
-  std::uint8_t* touched = tile.touched.data() + row / kTileSize * tile.tile_cols;
-  for (int col = 0; col < tile.tile_cols * kTileSize; col += kLanes) {
-    const bool any = writeCells<kWithDistance>(ringsAt(col), outline, col, row * tile.stride + col, tile);
-    touched[col / kTileSize] |= static_cast<std::uint8_t>(any);
+HWY_INLINE void writeTiles(const OutlineCoverage& outline, DepthTile& tile, const RingsAt& ringsAt) {
+  const D d;
+  for (int index = 0; index < tile.tile_rows * tile.tile_cols; ++index) {
+    const int first_row = index / tile.tile_cols * kTileSize, first_col = index % tile.tile_cols * kTileSize;
+    V most = hn::Zero(d);
+    for (int row = first_row; row < std::min(first_row + kTileSize, tile.rows); ++row) {
+      for (int col = first_col; col < first_col + kTileSize; col += kLanes) {
+        most = hn::Max(most, writeCells<kWithDistance>(ringsAt(row, col), outline, col, row * tile.stride + col, tile));
+      }
+    }
+    tile.touched[static_cast<std::size_t>(index)] =
+        static_cast<std::uint8_t>(!hn::AllFalse(d, hn::Gt(most, hn::Zero(d))));
   }
 }
 
 void writeHard(const OutlineCoverage& outline, DepthTile& tile) {
-  for (int row = 0; row < tile.rows; ++row) {
-    const float* depth = tile.depth() + row * tile.stride;
-    writeRow<false>(row, outline, tile, [&](int col) HWY_ATTR {
-      const V here = hn::LoadU(D(), depth + col), nothing = hn::Set(D(), std::numeric_limits<float>::infinity());
-      return Rings{here, nothing, here, nothing, here};
-    });
-  }
+  writeTiles<false>(outline, tile, [&](int row, int col) HWY_ATTR {
+    const V here = hn::LoadU(D(), tile.depth() + row * tile.stride + col);
+    const V nothing = hn::Set(D(), std::numeric_limits<float>::infinity());
+    return Rings{here, nothing, here, nothing, here};
+  });
 }
 
 void writeOneRing(const OutlineCoverage& outline, DepthTile& tile) {
   padRows(tile.depth(), tile);
-  for (int row = 0; row < tile.rows; ++row) {
-    const RowPointers rows(tile.depth(), row, tile);
-    writeRow<false>(row, outline, tile, [&](int col) HWY_ATTR {
-      const Neighbours cells(rows, col);
-      const V dilated = cells.least(), eroded = cells.largest();
-      return Rings{cells.here, dilated, eroded, dilated, eroded};
-    });
-  }
+  writeTiles<false>(outline, tile, [&](int row, int col) HWY_ATTR {
+    const Neighbours cells(RowPointers(tile.depth(), row, tile), col);
+    const V dilated = cells.least(), eroded = cells.largest();
+    return Rings{cells.here, dilated, eroded, dilated, eroded};
+  });
 }
 
 template <bool kWithDistance>
@@ -116,14 +119,12 @@ void writeTwoRings(const OutlineCoverage& outline, DepthTile& tile) {
   }
   padRows(tile.dilated(), tile);
   padRows(tile.eroded(), tile);
-  for (int row = 0; row < tile.rows; ++row) {
-    const RowPointers dilated(tile.dilated(), row, tile), eroded(tile.eroded(), row, tile);
-    const float* depth = tile.depth() + row * tile.stride;
-    writeRow<kWithDistance>(row, outline, tile, [&](int col) HWY_ATTR {
-      const Neighbours outer(dilated, col), inner(eroded, col);
-      return Rings{hn::LoadU(D(), depth + col), outer.here, inner.here, outer.least(), inner.largest()};
-    });
-  }
+  writeTiles<kWithDistance>(outline, tile, [&](int row, int col) HWY_ATTR {
+    const Neighbours outer(RowPointers(tile.dilated(), row, tile), col);
+    const Neighbours inner(RowPointers(tile.eroded(), row, tile), col);
+    return Rings{hn::LoadU(D(), tile.depth() + row * tile.stride + col), outer.here, inner.here, outer.least(),
+                 inner.largest()};
+  });
   if (kWithDistance) padRows(tile.distance(), tile);
 }
 
