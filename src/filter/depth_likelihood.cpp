@@ -97,7 +97,7 @@ void DepthLikelihood::setImage(const DepthImageView& view, const SamplingGrid& g
   image_.setImage(view, grid);
   outline_ = OutlineCoverage(edgeStddev(edge_stddev_px_, grid.factor));
   memory_.advance(dt_s);
-  object_ = nullptr;  // chosen when it is known where the object may be
+  is_level_chosen_ = false;  // until it is known where the object may be
 }
 
 CellBox DepthLikelihood::boundingBox(const Pose& T_camera_centre) const {
@@ -127,7 +127,7 @@ void DepthLikelihood::prepare(const std::vector<Pose>& T_camera_centre) {
 }
 
 CellBox DepthLikelihood::prepareRegion(const std::vector<Pose>& T_camera_centre) {
-  if (object_ == nullptr) chooseLevel(T_camera_centre);
+  if (!is_level_chosen_) chooseLevel(T_camera_centre);
   CellBox box;
   for (const Pose& pose : T_camera_centre) box = unite(box, boundingBox(pose));
   image_.prepare(box);
@@ -138,6 +138,7 @@ void DepthLikelihood::chooseLevel(const std::vector<Pose>& T_camera_centre) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Pose& pose : T_camera_centre) nearest = std::min(nearest, std::max(pose.translation().z(), kNearPlaneM));
   const double allowed = allowedLevelError(nearest, nearest / image_.grid().camera.fx, pixel_config_);
+  is_level_chosen_ = true;
   object_ = &levels_.front();
   for (const RenderObject& level : levels_) {
     if (level.error_m <= allowed) object_ = &level;  // from fine to coarse

@@ -66,7 +66,7 @@ class DepthLikelihood : public PoseLikelihood {
   double radius() const { return radius_; }
 
   /// Number of triangles rendered for the present image, and of the mesh itself.
-  std::size_t renderedTriangles() const { return object_ != nullptr ? object_->mesh.triangles.size() : 0; }
+  std::size_t renderedTriangles() const { return object_->mesh.triangles.size(); }
 
   /// Cells that the object can cover at a pose: its bounding sphere, projected.
   CellBox boundingBox(const Pose& T_camera_centre) const;
@@ -91,7 +91,8 @@ class DepthLikelihood : public PoseLikelihood {
   double updateParticle(int index, const Pose& T_camera_centre, int thread);
 
   std::vector<RenderObject> levels_;  // from fine to coarse
-  const RenderObject* object_;        // the one that is used for this image
+  const RenderObject* object_;        // the one that is used for this image; never null
+  bool is_level_chosen_ = false;
   PixelModelConfig pixel_config_;
   Eigen::Vector3d centre_object_;
   double radius_;          // of the bounding sphere about the centre [m]
