@@ -3,12 +3,14 @@ add_library(depth_object_tracker_core SHARED
   src/filter/depth_likelihood.cpp
   src/filter/gaussian6.cpp
   src/filter/informed_proposal.cpp
+  src/filter/likelihood_climb.cpp
   src/filter/mode_search.cpp
   src/filter/occlusion_tiles.cpp
   src/filter/particle_filter.cpp
   src/filter/pose_statistics.cpp
   src/filter/random.cpp
   src/filter/resampling.cpp
+  src/filter/tile_fit.cpp
   src/filter/tile_likelihood.cpp
   src/filter/worker_pool.cpp
   src/geometry/edge_collapse.cpp
@@ -31,6 +33,7 @@ add_library(depth_object_tracker_core SHARED
   src/render/depth_renderer.cpp
   src/render/depth_tile.cpp
   src/render/face_set.cpp
+  src/render/render_levels.cpp
   src/render/tile_outline.cpp
   src/render/tile_rasterizer.cpp
   src/render/tile_renderer.cpp
@@ -38,9 +41,13 @@ add_library(depth_object_tracker_core SHARED
   src/tracker/frame_clock.cpp
   src/tracker/object_model.cpp
   src/tracker/object_tracker.cpp
+  src/tracker/oriented_points.cpp
   src/tracker/parameter_binding.cpp
+  src/tracker/pose_finder.cpp
   src/tracker/pose_search.cpp
+  src/tracker/reacquisition.cpp
   src/tracker/resolution.cpp
+  src/tracker/sparse_fit.cpp
   src/tracker/status_monitor.cpp
   src/tracker/tracker_config_file.cpp
   src/tracker/tracker_parameters.cpp

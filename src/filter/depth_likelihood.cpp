@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/filter/depth_likelihood.h"
 
-#include "depth_object_tracker/geometry/level_of_detail.h"
 #include "depth_object_tracker/model/pixel_likelihood.h"
 #include "depth_object_tracker/render/depth_renderer.h"
 
@@ -31,19 +30,19 @@ double allowedLevelError(double depth_m, double cell_m, const PixelModelConfig& 
 
 constexpr double kCoarsestLevelErrorM = 0.002;
 
-std::vector<RenderObject> makeRenderLevels(const TriangleMesh& mesh, double max_error_m) {
-  std::vector<RenderObject> levels;
-  for (const MeshLevel& level : makeLevels(mesh, max_error_m)) {
-    levels.emplace_back(level.mesh, level.error_m);
-  }
-  return levels;
-}
-
 /// Of the outline, in cells. On a coarse grid it is known to a fraction of a cell at best: cells are in or out as a
 /// whole.
 double edgeStddev(double edge_stddev_px, int factor) {
   constexpr double kCellStddev = 0.3;
   return edge_stddev_px > 0.0 ? std::hypot(kCellStddev, edge_stddev_px / factor) : 0.0;
+}
+
+MeasuredPixel broadened(MeasuredPixel pixel, float extra_stddev_m) {
+  if (extra_stddev_m <= 0.0f || pixel.depth <= 0.0f) return pixel;
+  const float shrink = 1.0f / std::hypot(1.0f, extra_stddev_m * pixel.inverse_stddev);
+  pixel.inverse_stddev *= shrink;
+  pixel.visible_peak *= shrink;
+  return pixel;
 }
 
 /// Adds what one covered pixel with a reading says about how well a pose fits.
@@ -53,7 +52,9 @@ void assessPixel(const MeasuredPixel& pixel, float depth, float coverage, float 
   const float visible = (1.0f - p_occluded) * ratios.visible, occluded = p_occluded * ratios.occluded;
   const float total = (1.0f - coverage) + coverage * (visible + occluded);
   const double not_occluded = visible / (visible + occluded);
+  constexpr float kThroughStddevs = 6.0f;
   ++sum.measured_pixels;
+  sum.through_pixels += (pixel.depth - depth) * pixel.inverse_stddev > kThroughStddevs ? 1 : 0;
   sum.visible_pixels += (1.0f - p_occluded) * ratios.surface / (visible + occluded);
   sum.achieved += not_occluded * std::log(total);
   // A visible pixel's log density has the mean of a Gaussian's: half a nat below its peak.
@@ -70,21 +71,30 @@ void assessSurroundings(const MeasuredPixel& pixel, float surface_depth, PoseAss
 
 }  // namespace
 
+ObjectShape::ObjectShape(const TriangleMesh& mesh, const Eigen::Vector3d& centre, bool level_of_detail)
+    : levels(std::make_shared<RenderLevels>(mesh, level_of_detail ? kCoarsestLevelErrorM : 0.0)),
+      centre_object(centre),
+      radius_m(boundingRadius(mesh, centre)) {}
+
 DepthLikelihood::DepthLikelihood(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object,
                                  const PixelModelConfig& pixel_config, const OcclusionChainConfig& occlusion_config,
                                  int num_particles, int num_threads, bool level_of_detail)
-    : levels_(makeRenderLevels(mesh, level_of_detail ? kCoarsestLevelErrorM : 0.0)),
-      object_(&levels_.front()),
+    : DepthLikelihood(ObjectShape(mesh, centre_object, level_of_detail), pixel_config, occlusion_config, num_particles,
+                      std::make_shared<WorkerPool>(num_threads)) {}
+
+DepthLikelihood::DepthLikelihood(const ObjectShape& shape, const PixelModelConfig& pixel_config,
+                                 const OcclusionChainConfig& occlusion_config, int num_particles,
+                                 std::shared_ptr<WorkerPool> pool)
+    : shape_(shape),
+      object_(&shape.levels->finest()),
       pixel_config_(pixel_config),
-      centre_object_(centre_object),
-      radius_(boundingRadius(mesh, centre_object)),
       edge_stddev_px_(pixel_config.edge_stddev_px),
       image_(pixel_config),
       outline_(edgeStddev(edge_stddev_px_, 1)),
-      pool_(num_threads),
-      memory_(occlusion_config, num_particles, pool_.numThreads()),
+      pool_(std::move(pool)),
+      memory_(occlusion_config, num_particles, pool_->numThreads()),
       weights_(static_cast<std::size_t>(num_particles), 1.0 / num_particles),
-      scratch_(static_cast<std::size_t>(pool_.numThreads())) {}
+      scratch_(static_cast<std::size_t>(pool_->numThreads())) {}
 
 void DepthLikelihood::setImage(const DepthImageView& view, const SamplingGrid& grid, double dt_s) {
   const SamplingGrid last = image_.grid();
@@ -103,13 +113,13 @@ void DepthLikelihood::setImage(const DepthImageView& view, const SamplingGrid& g
 CellBox DepthLikelihood::boundingBox(const Pose& T_camera_centre) const {
   const PinholeCamera& camera = image_.grid().camera;
   const Eigen::Vector3d p = T_camera_centre.translation();
-  const double nearest = p.z() - radius_;
+  const double nearest = p.z() - shape_.radius_m;
   if (!(p.allFinite())) return CellBox();
   if (nearest <= kNearPlaneM) return image_.imageBox();
   // The sphere's silhouette is inside of the projection of its bounding cube's front face and centre offsets.
   const auto bounds = [&](double x, double focal, double principal) {
-    const double low = std::min((x - radius_) / nearest, (x - radius_) / (p.z() + radius_));
-    const double high = std::max((x + radius_) / nearest, (x + radius_) / (p.z() + radius_));
+    const double low = std::min((x - shape_.radius_m) / nearest, (x - shape_.radius_m) / (p.z() + shape_.radius_m));
+    const double high = std::max((x + shape_.radius_m) / nearest, (x + shape_.radius_m) / (p.z() + shape_.radius_m));
     const double limit = 1e6;
     return std::pair<int, int>{static_cast<int>(std::floor(std::clamp(focal * low + principal, -limit, limit))),
                                static_cast<int>(std::ceil(std::clamp(focal * high + principal, -limit, limit))) + 1};
@@ -126,6 +136,12 @@ void DepthLikelihood::prepare(const std::vector<Pose>& T_camera_centre) {
   memory_.updateMean(weights_);
 }
 
+void DepthLikelihood::prepareWholeImage(double level_error_m) {
+  is_level_chosen_ = true;
+  object_ = &shape_.levels->choose(level_error_m);
+  image_.prepare(image_.imageBox());
+}
+
 CellBox DepthLikelihood::prepareRegion(const std::vector<Pose>& T_camera_centre) {
   if (!is_level_chosen_) chooseLevel(T_camera_centre);
   CellBox box;
@@ -139,15 +155,12 @@ void DepthLikelihood::chooseLevel(const std::vector<Pose>& T_camera_centre) {
   for (const Pose& pose : T_camera_centre) nearest = std::min(nearest, std::max(pose.translation().z(), kNearPlaneM));
   const double allowed = allowedLevelError(nearest, nearest / image_.grid().camera.fx, pixel_config_);
   is_level_chosen_ = true;
-  object_ = &levels_.front();
-  for (const RenderObject& level : levels_) {
-    if (level.error_m <= allowed) object_ = &level;  // from fine to coarse
-  }
+  object_ = &shape_.levels->choose(allowed);
 }
 
 Pose DepthLikelihood::toObject(const Pose& T_camera_centre) const {
   Pose T_camera_object = T_camera_centre;
-  T_camera_object.translation() -= T_camera_centre.linear() * centre_object_;
+  T_camera_object.translation() -= T_camera_centre.linear() * shape_.centre_object;
   return T_camera_object;
 }
 
@@ -223,7 +236,7 @@ void DepthLikelihood::update(const std::vector<Pose>& T_camera_centre, std::vect
     const auto i = static_cast<std::size_t>(index);
     log_likelihoods[i] = updateParticle(index, T_camera_centre[i], thread);
   };
-  pool_.run(static_cast<int>(T_camera_centre.size()), std::cref(task));  // by reference: nothing is allocated
+  pool_->run(static_cast<int>(T_camera_centre.size()), std::cref(task));  // by reference: nothing is allocated
 }
 
 double DepthLikelihood::updateParticle(int index, const Pose& T_camera_centre, int thread) {
@@ -236,20 +249,28 @@ void DepthLikelihood::resample(const std::vector<int>& source) {
   weights_.assign(source.size(), 1.0 / static_cast<double>(source.size()));
 }
 
-PoseAssessment DepthLikelihood::assess(const Pose& T_camera_centre, int thread) {
+TileFit DepthLikelihood::countFit(const Pose& T_camera_centre, double tolerance_m, int thread) {
+  constexpr double kNoiseStddevs = 3.0;
+  if (!isPrepared(T_camera_centre)) return TileFit();
+  return countTileFit(render(T_camera_centre, false, thread), image_.planes(), static_cast<float>(tolerance_m),
+                      static_cast<float>(kNoiseStddevs * pixel_config_.depth_noise_per_m));
+}
+
+PoseAssessment DepthLikelihood::assess(const Pose& T_camera_centre, int thread, double extra_stddev_m) {
   PoseAssessment result;
   image_.prepare(boundingBox(T_camera_centre));
   const DepthTile& tile = render(T_camera_centre, false, thread);
   const TileLikelihoodInput data = input();
   const float* const* beliefs = meanBeliefs(tile, thread);
-  result.log_likelihood = tileLogLikelihood(tile, data, beliefs, 0.0f);
+  result.log_likelihood = tileLogLikelihood(tile, data, beliefs, static_cast<float>(extra_stddev_m));
   for (int row = 0; row < tile.rows; ++row) {
     for (int col = 0; col < tile.cols; ++col) {
       const int cell = row * tile.stride + col;
       const bool is_covered = tile.depth()[cell] < std::numeric_limits<float>::infinity();
       if (!(tile.coverage()[cell] > 0.0f)) continue;
       result.covered_pixels += is_covered ? 1 : 0;
-      const MeasuredPixel pixel = image_.pixel(tile.row_begin + row, tile.col_begin + col);
+      const MeasuredPixel pixel =
+          broadened(image_.pixel(tile.row_begin + row, tile.col_begin + col), static_cast<float>(extra_stddev_m));
       if (pixel.depth <= 0.0f) continue;
       if (!is_covered) {
         assessSurroundings(pixel, tile.soft_depth()[cell], result);

@@ -20,6 +20,7 @@ constexpr double kMaxStepRad = 0.35;
 constexpr double kConvergedStep = 2e-5;  // m, and rad times the object's radius
 constexpr double kFreeDirectionStddevM = 0.7e-3;
 constexpr double kMaxProbeM = 0.02;
+constexpr std::array<double, 4> kProbeOffsets = {-1.0, -0.5, 0.5, 1.0};  // of the reach
 constexpr int kMaxFreeDirections = 3;
 constexpr double kReachSquared = 16.0;       // squared Mahalanobis distance from the prediction
 constexpr double kHypothesisWidthM = 0.012;  // hypotheses are judged and climbed from with this much tolerance
@@ -47,9 +48,10 @@ ModeSearch::ModeSearch(PoseLikelihood& likelihood, const ProcessStep& step, doub
 
 std::vector<LocalMode> ModeSearch::run(const PredictedPose& predicted, const std::vector<ModeSearchStart>& starts,
                                        const std::vector<Pose>& hypotheses, std::size_t max_modes) {
-  std::vector<LocalMode> found;
-  for (const ModeSearchStart& start : starts) found.push_back(climb(predicted, start));
-  for (const Pose& hypothesis : bestOf(hypotheses)) found.push_back(climb(predicted, {hypothesis, kHypothesisWidthM}));
+  std::vector<ModeSearchStart> climbed = starts;
+  for (const Pose& hypothesis : bestOf(hypotheses)) climbed.push_back({hypothesis, kHypothesisWidthM});
+  std::vector<LocalMode> found(climbed.size());
+  forEach(climbed.size(), [&](std::size_t i, int thread) { found[i] = climb(predicted, climbed[i], thread); });
   std::stable_sort(found.begin(), found.end(),
                    [](const LocalMode& a, const LocalMode& b) { return a.log_posterior > b.log_posterior; });
   std::vector<LocalMode> modes;
@@ -65,6 +67,12 @@ std::vector<LocalMode> ModeSearch::run(const PredictedPose& predicted, const std
   return modes;
 }
 
+template <typename Task>
+void ModeSearch::forEach(std::size_t count, const Task& task) const {
+  likelihood_.parallelFor(static_cast<int>(count),
+                          [&task](int index, int thread) { task(static_cast<std::size_t>(index), thread); });
+}
+
 bool ModeSearch::isOutOfReach(const LocalMode& mode, const PredictedPose& predicted) const {
   // A flat board larger than the object fits one of its faces perfectly: only the process model says that it is too
   // far.
@@ -73,10 +81,10 @@ bool ModeSearch::isOutOfReach(const LocalMode& mode, const PredictedPose& predic
 }
 
 std::vector<Pose> ModeSearch::bestOf(const std::vector<Pose>& hypotheses) const {
-  std::vector<std::pair<double, std::size_t>> ranking;
-  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
-    ranking.emplace_back(-likelihood_.broadLogLikelihood(hypotheses[i], kHypothesisWidthM, 0), i);
-  }
+  std::vector<std::pair<double, std::size_t>> ranking(hypotheses.size());
+  forEach(hypotheses.size(), [&](std::size_t i, int thread) {
+    ranking[i] = {-likelihood_.broadLogLikelihood(hypotheses[i], kHypothesisWidthM, thread), i};
+  });
   const std::size_t kept = std::min(ranking.size(), kClimbedHypotheses);
   std::partial_sort(ranking.begin(), ranking.begin() + static_cast<std::ptrdiff_t>(kept), ranking.end());
   std::vector<Pose> best;
@@ -84,7 +92,7 @@ std::vector<Pose> ModeSearch::bestOf(const std::vector<Pose>& hypotheses) const 
   return best;
 }
 
-LocalMode ModeSearch::climb(const PredictedPose& predicted, const ModeSearchStart& start) {
+LocalMode ModeSearch::climb(const PredictedPose& predicted, const ModeSearchStart& start, int thread) const {
   const Matrix6d prior_information = priorInformation(predicted);
   LocalMode mode;
   mode.pose = start.pose;
@@ -92,16 +100,16 @@ LocalMode ModeSearch::climb(const PredictedPose& predicted, const ModeSearchStar
   for (double width = start.width_m; final_steps < kFinalSteps; width *= 0.5) {
     const bool is_final = width < kNarrowestWidthM;
     final_steps += is_final ? 1 : 0;
-    const Linearisation model = likelihood_.linearise(mode.pose, is_final ? 0.0 : width, 0);
+    const Linearisation model = likelihood_.linearise(mode.pose, is_final ? 0.0 : width, thread);
     Vector6d displacement = newtonStep(predicted, prior_information, model, mode.pose);
     limitStep(displacement);
     mode.pose = perturb(mode.pose, displacement);
     if (is_final && surfaceMotion(displacement, object_radius_m_) < kConvergedStep) break;
   }
-  const Linearisation model = likelihood_.linearise(mode.pose, 0.0, 0);
+  const Linearisation model = likelihood_.linearise(mode.pose, 0.0, thread);
   mode.slope = exponent_ * model.gradient;
   mode.information = exponent_ * model.information;
-  mode.log_likelihood = temperedLogLikelihood(mode.pose);
+  mode.log_likelihood = temperedLogLikelihood(mode.pose, thread);
   mode.log_posterior = mode.log_likelihood + logPrior(mode.pose, predicted);
   return mode;
 }
@@ -124,29 +132,54 @@ double ModeSearch::logPrior(const Pose& pose, const PredictedPose& predicted) co
   return step_.logDensity(difference(pose, predicted.mean));
 }
 
-double ModeSearch::temperedLogLikelihood(const Pose& pose) {
-  ++likelihood_evaluations_;
-  return exponent_ * likelihood_.logLikelihood(pose, 0);
+double ModeSearch::temperedLogLikelihood(const Pose& pose, int thread) const {
+  return exponent_ * likelihood_.logLikelihood(pose, thread);
 }
 
-LocalMode ModeSearch::exploreFreeDirections(const PredictedPose& predicted, LocalMode mode) {
+LocalMode ModeSearch::exploreFreeDirections(const PredictedPose& predicted, LocalMode mode) const {
   // Depth inside of the outline says little about a face that slides in its own plane or a mug that turns about its
   // axis: the mode that was climbed may be one of several. Probes at the posterior's own scale find better ones and
   // measure curvature.
   for (int round = 0; round < kMaxExplorations; ++round) {
-    std::optional<Pose> better;
     LocalMode probed = mode;
-    for (const auto& [direction, reach] : freeDirections(mode)) {
-      const std::optional<Pose> found = probeDirection(predicted, direction, reach, probed);
-      if (found && !better) better = found;
-    }
+    const std::optional<Pose> better = probeFreeDirections(predicted, probed);
     if (!better) return probed;
-    LocalMode climbed = climb(predicted, {*better, kNarrowestWidthM});
+    const LocalMode climbed = climb(predicted, {*better, kNarrowestWidthM}, 0);
     if (climbed.log_posterior <= mode.log_posterior + kWorthMovingNat) return probed;
     mode = climbed;
   }
-  for (const auto& [direction, reach] : freeDirections(mode)) probeDirection(predicted, direction, reach, mode);
+  probeFreeDirections(predicted, mode);
   return mode;
+}
+
+std::optional<Pose> ModeSearch::probeFreeDirections(const PredictedPose& predicted, LocalMode& mode) const {
+  const std::vector<std::pair<Vector6d, double>> directions = freeDirections(mode);
+  constexpr std::size_t kPerDirection = kProbeOffsets.size();
+  std::vector<Pose> poses(directions.size() * kPerDirection);
+  std::vector<double> values(poses.size());
+  forEach(poses.size(), [&](std::size_t i, int thread) {
+    const auto& [direction, reach] = directions[i / kPerDirection];
+    poses[i] = perturb(mode.pose, kProbeOffsets[i % kPerDirection] * reach * direction);
+    values[i] = temperedLogLikelihood(poses[i], thread);
+  });
+  const std::optional<Pose> better = betterPose(predicted, mode, poses, values);
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    takeMeasuredCurvature(directions[k].first, directions[k].second, &values[k * kPerDirection], mode);
+  }
+  return better;
+}
+
+std::optional<Pose> ModeSearch::betterPose(const PredictedPose& predicted, const LocalMode& mode,
+                                           const std::vector<Pose>& poses, const std::vector<double>& values) const {
+  std::optional<Pose> better;
+  double best = mode.log_posterior + kWorthMovingNat;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const double log_posterior = values[i] + logPrior(poses[i], predicted);
+    if (!(log_posterior > best)) continue;
+    best = log_posterior;
+    better = poses[i];
+  }
+  return better;
 }
 
 std::vector<std::pair<Vector6d, double>> ModeSearch::freeDirections(const LocalMode& mode) const {
@@ -165,35 +198,20 @@ std::vector<std::pair<Vector6d, double>> ModeSearch::freeDirections(const LocalM
   return result;
 }
 
-std::optional<Pose> ModeSearch::probeDirection(const PredictedPose& predicted, const Vector6d& direction, double reach,
-                                               LocalMode& mode) {
+void ModeSearch::takeMeasuredCurvature(const Vector6d& direction, double reach, const double* values, LocalMode& mode) {
   // Least-squares parabola through five points at -h, -h/2, 0, h/2, h: y = y0 + a x + b x^2 with x = offset / h.
-  constexpr std::array<double, 4> kOffsets = {-1.0, -0.5, 0.5, 1.0};
-  std::array<double, 4> values;
-  std::optional<Pose> better;
-  double best = mode.log_posterior + kWorthMovingNat;
-  for (std::size_t i = 0; i < kOffsets.size(); ++i) {
-    const Pose pose = perturb(mode.pose, kOffsets[i] * reach * direction);
-    values[i] = temperedLogLikelihood(pose);
-    if (!std::isfinite(values[i])) return better;
-    const double log_posterior = values[i] + logPrior(pose, predicted);
-    if (log_posterior <= best) continue;
-    best = log_posterior;
-    better = pose;
-  }
   const double centre = mode.log_likelihood;
   const double linear = (-values[0] - 0.5 * values[1] + 0.5 * values[2] + values[3]) / 2.5;
   // Normal equations of [1, x^2]: mean of x^2 is 0.5, sum of squared deviations 0.875.
   const double quadratic = (0.5 * (values[0] + values[3]) - 0.25 * (values[1] + values[2]) - 0.5 * centre) / 0.875;
   const double measured = -2.0 * quadratic / (reach * reach);
   const double known = direction.dot(mode.information * direction);
-  if (!(measured > known)) return better;
+  if (!(measured > known) || !std::isfinite(measured) || !std::isfinite(linear)) return;
   // Slope and information along the direction alone become the measured ones.
   const double squared = direction.squaredNorm();
   const Vector6d along = direction / squared;
   mode.information += (measured - known) * along * along.transpose();
   mode.slope += (linear / reach - mode.slope.dot(direction)) * along;
-  return better;
 }
 
 }  // namespace depth_object_tracker

@@ -49,6 +49,10 @@ FilterEstimate ParticleFilter::update(PoseLikelihood& likelihood, const ProcessS
   ++frame_;
   resampleIfNeeded(likelihood);
   estimate.time.resample_s = stopwatch.lap();
+  poses_before_ = poses_;
+  velocities_before_ = velocities_;
+  weights_before_ = weights_;
+  last_mean_before_ = last_mean_;
 
   predict(step);
   if (config_.proposal == Proposal::kInformed) {
@@ -67,13 +71,35 @@ FilterEstimate ParticleFilter::update(PoseLikelihood& likelihood, const ProcessS
     log_weights_[i] = std::log(weights_[i]) + likelihood_exponent * log_likelihoods_[i] + log_proposal_ratio_[i];
   }
   normaliseLogWeights(log_weights_, weights_);
+  summarise(estimate, step);
+  return estimate;
+}
+
+FilterEstimate ParticleFilter::hold(PoseLikelihood& likelihood, const ProcessStep& step) {
+  FilterEstimate estimate;
+  ++frame_;
+  predict(step);
+  drawFromProcess(step);
+  data_share_.setZero();
+  likelihood.prepare(poses_);
+  summarise(estimate, step);
+  return estimate;
+}
+
+void ParticleFilter::undo() {
+  poses_ = poses_before_;
+  velocities_ = velocities_before_;
+  weights_ = weights_before_;
+  last_mean_ = last_mean_before_;
+}
+
+void ParticleFilter::summarise(FilterEstimate& estimate, const ProcessStep& step) {
   foldSymmetries();
   estimate.pose = poseStatistics(poses_, weights_, last_mean_);
   estimate.effective_sample_size = effectiveSampleSize(weights_);
   updateVelocities(step);
   estimateVelocity(estimate);
   last_mean_ = estimate.pose.mean;
-  return estimate;
 }
 
 void ParticleFilter::resampleIfNeeded(PoseLikelihood& likelihood) {

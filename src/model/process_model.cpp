@@ -58,11 +58,9 @@ void ProcessStep::setNoise(const ProcessConfig& config, Vector6d variances) {
   components_[1].variances = variances * (config.sudden_motion_scale * config.sudden_motion_scale);
 }
 
-void ProcessStep::allowJump(double share, const Vector6d& variances) {
-  num_components_ = 2;
-  components_[0].weight = 1.0 - share;
-  components_[1].weight = share;
-  components_[1].variances = variances.cwiseMax(components_[0].variances);
+void ProcessStep::excludeSuddenMotion() {
+  num_components_ = 1;
+  components_[0].weight = 1.0;
 }
 
 Pose ProcessStep::predict(const Pose& T_camera_centre, const Vector6d& velocity) const {

@@ -7,6 +7,7 @@
 #include "depth_object_tracker/render/depth_renderer.h"
 #include "depth_object_tracker/tracker/frame_clock.h"
 #include "depth_object_tracker/tracker/pose_search.h"
+#include "depth_object_tracker/tracker/reacquisition.h"
 #include "depth_object_tracker/tracker/resolution.h"
 #include "depth_object_tracker/tracker/status_monitor.h"
 #include "depth_object_tracker/tracker/tracker_parameters.h"
@@ -21,11 +22,24 @@ namespace {
 // Spread of an angle that nothing can be known of.
 constexpr double kFreeAngleVariance = M_PI * M_PI / 3.0;
 
+constexpr double kSearchEverywhereAfterS = 3.0;
+constexpr double kUsualDistanceM = 0.8;
+constexpr double kDoubtfulAfterFindS = 0.7, kLongAgoS = 1e6;
+constexpr double kDoubtfulReachS = 1.5;  // as far as after this long unseen
+
+Vector6d foundVariances() {
+  Vector6d variances;
+  variances.head<3>().setConstant(0.003 * 0.003);
+  variances.tail<3>().setConstant(0.04 * 0.04);
+  return variances;
+}
+
 constexpr int kHypotheses = 100;
 constexpr double kPoorFitReachS = 0.3;  // as far as after this long unseen
 constexpr double kPoorScore = 0.85;
 constexpr int kLeastParticles = 24;  // that a late frame is not cut below
-constexpr double kJumpShareWhenLost = 0.3;
+// With less in view than this the image says nothing of the pose but where it is not.
+constexpr double kBlindBelowVisibleFraction = 0.04;
 // With less of the object in view its pose counts as not seen.
 constexpr double kSeenAboveVisibleFraction = 0.3;
 
@@ -64,12 +78,15 @@ class ObjectTracker::Implementation {
         config(checked(tracker_config)),
         centre_object(surfaceCentroid(checked(object).mesh)),
         diameter_m(diameter(object.mesh)),
-        likelihood(object.mesh, centre_object, config.pixel, config.occlusion, config.filter.num_particles,
-                   config.filter.num_threads),
+        shape(object.mesh, centre_object),
+        pool(std::make_shared<WorkerPool>(config.filter.num_threads)),
+        likelihood(shape, config.pixel, config.occlusion, config.filter.num_particles, pool),
         filter(config.filter, objectRadius(object.mesh, centre_object), aboutCentre(object.symmetries, centre_object)),
         resolution(config.resolution),
         status(config.status),
-        search(config.filter.seed) {}
+        search(config.filter.seed),
+        reacquisition(
+            std::make_unique<PoseFinder>(shape, object.mesh, diameter_m, config.pixel, config.filter.seed, pool)) {}
 
   TrackerResult update(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s,
                        const std::optional<ControlInput>& control);
@@ -85,15 +102,21 @@ class ObjectTracker::Implementation {
   TrackerConfig config;
   Eigen::Vector3d centre_object;
   double diameter_m;
+  ObjectShape shape;
+  std::shared_ptr<WorkerPool> pool;
   DepthLikelihood likelihood;
   ParticleFilter filter;
   ResolutionChooser resolution;
   StatusMonitor status;
   PoseSearch search;
+  Reacquisition reacquisition;
   Pose last_seen_centre = Pose::Identity();
   double unseen_s = 0.0;     // since the object was last seen well
   PoseStatistics last_mean;  // of the centre
-  bool fit_is_poor = false;  // look around in the next frame
+  bool is_anywhere = false;  // nothing is known of the pose yet
+  bool is_blind = false;     // nothing of the object was seen in the last image, or not where it was thought to be
+  double reacquired_s = kLongAgoS;  // since the object was found again
+  bool fit_is_poor = false;         // look around in the next frame
   FrameClock clock;
   std::optional<Vector6d> initial_variances;  // set by initialise, used by the next image
   double full_resolution_pixels = 0.0;        // that the object covers
@@ -108,6 +131,20 @@ class ObjectTracker::Implementation {
   double diffusionScale() const;
   /// The process into this image, and poses to look at besides: at the start, while little is seen, after a loss.
   ProcessStep makeStep(double dt_s, const std::optional<ControlInput>& control, std::vector<Pose>& hypotheses);
+  /// One frame of the filter.
+  FilterEstimate look(double dt_s, const std::optional<ControlInput>& control);
+  /// One frame without a measurement.
+  FilterEstimate hold(double dt_s, const std::optional<ControlInput>& control);
+  PoseAssessment assess(const FilterEstimate& estimate);
+  bool seesNothing(const PoseAssessment& assessment) const;
+  /// The paper's filter neither searches nor holds.
+  bool mayReacquire() const { return config.filter.proposal == Proposal::kInformed; }
+  /// Starts the filter anew where the object is seen. @return false when it is not.
+  bool reacquire(const DepthImageView& depth, double dt_s);
+  /// The estimate may be at a neighbouring mode: the image does not fit well, or the object was only just found.
+  bool isDoubtful() const;
+  bool moveToBetterPose(const DepthImageView& depth, const Pose& T_camera_centre);
+  void startAt(const Pose& T_camera_centre);
   void rememberFit(const FilterEstimate& estimate, double dt_s);
   void writeEstimate(const FilterEstimate& estimate);
   void writeStatus(const PoseAssessment& assessment);
@@ -125,15 +162,22 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
   const SamplingGrid grid = makeSamplingGrid(camera, resolution.choose(full_resolution_pixels, std::sqrt(effort)));
   likelihood.setImage(depth, grid, time.dt_s);
 
-  const double exponent = likelihoodExponent(config.filter, grid.factor);
-  std::vector<Pose> hypotheses;
-  const ProcessStep step = makeStep(time.dt_s, control, hypotheses);
-  const FilterEstimate estimate = filter.update(likelihood, step, exponent, hypotheses);
-  likelihood.setWeights(filter.weights());
-
-  const PoseAssessment assessment = likelihood.assess(estimate.pose.mean, 0);
+  if (is_blind && reacquire(depth, time.dt_s)) is_blind = false;
+  FilterEstimate estimate = is_blind ? hold(time.dt_s, control) : look(time.dt_s, control);
+  PoseAssessment assessment = assess(estimate);
+  if (!is_blind && seesNothing(assessment)) {
+    // The update is not to be trusted: what was seen is not the object.
+    filter.undo();
+    filter.stopMotion();
+    is_blind = true;
+    estimate = hold(time.dt_s, control);
+    assessment = assess(estimate);
+  } else if (!is_blind && isDoubtful() && moveToBetterPose(depth, estimate.pose.mean)) {
+    estimate = look(time.dt_s, control);
+    assessment = assess(estimate);
+  }
   full_resolution_pixels = assessment.covered_pixels * static_cast<double>(grid.factor * grid.factor);
-  status.update(assessment, time.dt_s);
+  status.update(assessment, time.dt_s, is_blind);
   result.grasped = control && control->grasped;
   result.downsampling = grid.factor;
   writeEstimate(estimate);
@@ -141,6 +185,30 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
   rememberFit(estimate, time.dt_s);
   result.time.total_s = stopwatch.lap();
   return result;
+}
+
+FilterEstimate ObjectTracker::Implementation::look(double dt_s, const std::optional<ControlInput>& control) {
+  std::vector<Pose> hypotheses;
+  const ProcessStep step = makeStep(dt_s, control, hypotheses);
+  const double exponent = likelihoodExponent(config.filter, likelihood.image().grid().factor);
+  return filter.update(likelihood, step, exponent, hypotheses);
+}
+
+FilterEstimate ObjectTracker::Implementation::hold(double dt_s, const std::optional<ControlInput>& control) {
+  ProcessStep step(config.process, dt_s, control, centre_object, diffusionScale());
+  step.excludeSuddenMotion();
+  return filter.hold(likelihood, step);
+}
+
+PoseAssessment ObjectTracker::Implementation::assess(const FilterEstimate& estimate) {
+  likelihood.setWeights(filter.weights());
+  return likelihood.assess(estimate.pose.mean, 0);
+}
+
+bool ObjectTracker::Implementation::seesNothing(const PoseAssessment& assessment) const {
+  const bool was_seen = status.state() == TrackerState::kTracking || status.state() == TrackerState::kOccluded;
+  return mayReacquire() && was_seen && assessment.measured_pixels > 0 &&
+         assessment.visible_pixels < kBlindBelowVisibleFraction * assessment.measured_pixels;
 }
 
 bool ObjectTracker::Implementation::checkInput(const DepthImageView& depth, const PinholeCamera& camera,
@@ -185,51 +253,74 @@ FrameClock::Step ObjectTracker::Implementation::advanceClock(double stamp_s) {
     likelihood.resetOcclusion();
     filter.stopMotion();
     status.restart();
-    initial_variances = defaultInitialVariances(config.initialisation);
+    is_blind = is_anywhere;
+    if (!is_anywhere) initial_variances = defaultInitialVariances(config.initialisation);
   }
   return time;
 }
 
 ProcessStep ObjectTracker::Implementation::makeStep(double dt_s, const std::optional<ControlInput>& control,
                                                     std::vector<Pose>& hypotheses) {
-  const bool may_search = config.filter.proposal == Proposal::kInformed;
   if (initial_variances) {
     const ProcessStep step(config.process, *initial_variances);
-    if (may_search) hypotheses = search.around(filter.poses().front(), *initial_variances, kHypotheses);
+    if (mayReacquire()) hypotheses = search.around(filter.poses().front(), *initial_variances, kHypotheses);
     initial_variances.reset();
     return step;
   }
-  if (may_search && status.state() == TrackerState::kLost) {
-    // What the particles say of a pose that does not fit is worth nothing: they start again where the object was seen.
-    const Vector6d variances = searchVariances(unseen_s + dt_s);
-    filter.initialise(last_seen_centre);
-    hypotheses = search.around(last_seen_centre, variances, kHypotheses);
-    return ProcessStep(config.process, variances);
-  }
   ProcessStep step(config.process, dt_s, control, centre_object, diffusionScale());
-  const bool lost = status.misfit();
-  if (may_search && lost) {
-    const Vector6d variances = searchVariances(unseen_s + dt_s);
-    step.allowJump(kJumpShareWhenLost, variances);
-    hypotheses = search.around(last_seen_centre, variances, kHypotheses);
-  } else if (may_search && fit_is_poor) {
+  if (mayReacquire() && fit_is_poor) {
     hypotheses = search.around(last_mean.mean, searchVariances(kPoorFitReachS), kHypotheses);
-  } else if (may_search && status.state() == TrackerState::kOccluded) {
-    // As far as the particles have spread: what is further away may fit by chance.
-    const Vector6d spread = last_mean.covariance.diagonal().cwiseMax(searchVariances(0.0));
-    hypotheses = search.around(last_mean.mean, spread, kHypotheses);
   }
   return step;
+}
+
+bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, double dt_s) {
+  SearchRegion region;
+  region.T_camera_centre = last_mean.mean;
+  region.variances = searchVariances(unseen_s + dt_s);
+  region.is_known = !is_anywhere;
+  // As long as something in front explains why nothing is seen, the object is most likely still behind it.
+  region.everywhere = status.state() == TrackerState::kLost || unseen_s > kSearchEverywhereAfterS;
+  const std::optional<Pose> found = reacquisition.search(depth, camera_in_use, region);
+  if (!found) return false;
+  startAt(*found);
+  reacquired_s = 0.0;
+  return true;
+}
+
+bool ObjectTracker::Implementation::isDoubtful() const {
+  if (!mayReacquire() || initial_variances || status.state() != TrackerState::kTracking) return false;
+  return fit_is_poor || reacquired_s < kDoubtfulAfterFindS;
+}
+
+bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth, const Pose& T_camera_centre) {
+  const std::optional<Pose> better =
+      reacquisition.findBetter(depth, camera_in_use, T_camera_centre, searchVariances(kDoubtfulReachS));
+  if (better) startAt(*better);
+  return better.has_value();
+}
+
+void ObjectTracker::Implementation::startAt(const Pose& T_camera_centre) {
+  is_anywhere = false;
+  filter.initialise(T_camera_centre);
+  likelihood.resetOcclusion();
+  status.restart();
+  initial_variances = foundVariances();
+  reacquisition.restart();
 }
 
 void ObjectTracker::Implementation::rememberFit(const FilterEstimate& estimate, double dt_s) {
   const bool seen = status.state() == TrackerState::kTracking && !status.misfit() &&
                     status.visibleFraction() >= kSeenAboveVisibleFraction;
   unseen_s = seen ? 0.0 : unseen_s + dt_s;
+  reacquired_s += dt_s;
   if (seen) last_seen_centre = estimate.pose.mean;
   last_mean = estimate.pose;
   // What is seen fits worse than the sensor model expects: perhaps a neighbouring mode.
   fit_is_poor = seen && status.score() < kPoorScore;
+  const bool may_be_blind = mayReacquire() && status.state() != TrackerState::kInitializing;
+  const bool nothing_seen = status.visibleFraction() < kBlindBelowVisibleFraction || status.misfit();
+  is_blind = is_anywhere || (may_be_blind && (is_blind || nothing_seen || status.state() == TrackerState::kLost));
 }
 
 double ObjectTracker::Implementation::diffusionScale() const {
@@ -247,7 +338,7 @@ void ObjectTracker::Implementation::writeEstimate(const FilterEstimate& estimate
   if (const auto axis = freeAxisInCamera(estimate.pose.mean, symmetries)) {
     covariance.bottomRightCorner<3, 3>() += kFreeAngleVariance * (*axis) * axis->transpose();
   }
-  result.has_pose = true;
+  result.has_pose = !is_anywhere;
   result.T_camera_object = toObject(estimate.pose.mean);
   result.covariance = transportCovariance(covariance, origin_from_centre);
   result.twist = estimate.velocity;
@@ -289,6 +380,9 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
   self.last_seen_centre = T_camera_centre;
   self.unseen_s = 0.0;
   self.fit_is_poor = false;
+  self.is_blind = self.is_anywhere = false;
+  self.reacquired_s = kLongAgoS;
+  self.reacquisition.restart();
   self.likelihood.resetOcclusion();
   self.clock.reset();
   self.status.restart();
@@ -296,6 +390,18 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
   self.full_resolution_pixels = 0.0;
   self.result = TrackerResult();
   self.result.state = self.status.state();
+  self.result.reason = self.status.reason();
+}
+
+void ObjectTracker::initialiseAnywhere() {
+  Implementation& self = *implementation_;
+  Pose T_camera_object = Pose::Identity();
+  T_camera_object.translation().z() = kUsualDistanceM;
+  initialise(T_camera_object);
+  self.initial_variances.reset();
+  self.is_blind = self.is_anywhere = true;
+  self.last_mean = PoseStatistics();
+  self.last_mean.mean = self.toCentre(T_camera_object);
   self.result.reason = self.status.reason();
 }
 

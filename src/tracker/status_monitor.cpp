@@ -8,6 +8,7 @@ namespace {
 
 // Fewer pixels than this say nothing about the fit.
 constexpr int kMinPixels = 8;
+constexpr double kSeenThroughShare = 0.25;
 constexpr double kFoundAfterS = 0.08;  // one image may fit by chance
 
 /// Score that a pose must have to count as found. Part of a wall or a table can fit about as well as a face of the
@@ -29,20 +30,25 @@ void StatusMonitor::restart() {
   score_ = 0.0;
 }
 
-void StatusMonitor::update(const PoseAssessment& assessment, double dt_s) {
+void StatusMonitor::update(const PoseAssessment& assessment, double dt_s, bool is_blind) {
   visible_fraction_ = assessment.measured_pixels > 0
                           ? std::clamp(assessment.visible_pixels / assessment.measured_pixels, 0.0, 1.0)
                           : 0.0;
   score_ = assessment.expected > 0.0 ? std::clamp(assessment.achieved / assessment.expected, 0.0, 1.5) : 0.0;
-  classify(assessment, dt_s);
+  classify(assessment, dt_s, is_blind);
 }
 
-void StatusMonitor::classify(const PoseAssessment& assessment, double dt_s) {
+void StatusMonitor::classify(const PoseAssessment& assessment, double dt_s, bool is_blind) {
+  if (is_blind && state_ == TrackerState::kInitializing) {
+    reason_ = "the whole image is searched for the object: it must be in view, 0.3 to 3 m away and mostly visible";
+    return;
+  }
   const bool outside = assessment.covered_pixels < kMinPixels;
   const bool unmeasured = !outside && assessment.measured_pixels < kMinPixels;
   const bool hidden = !outside && !unmeasured && visible_fraction_ < config_.occluded_below_visible_fraction;
-  // While hidden, few pixels are left to judge the fit by: only a pose that readings see through counts as misfit.
-  const bool misfit = outside || (!unmeasured && score_ < config_.lost_below_score && assessment.log_likelihood < 0.0);
+  // What is in front of the object does not contradict the pose; what is seen through it does.
+  const bool seen_through = !unmeasured && assessment.through_pixels > kSeenThroughShare * assessment.measured_pixels;
+  const bool misfit = outside || (seen_through && score_ < config_.lost_below_score);
   misfit_s_ = misfit ? misfit_s_ + dt_s : 0.0;
   if (misfit_s_ > config_.lost_after_s) {
     if (state_ != TrackerState::kLost) found_s_ = 0.0;
@@ -52,7 +58,7 @@ void StatusMonitor::classify(const PoseAssessment& assessment, double dt_s) {
                         "initial pose "
                         "if this lasts";
   } else if (state_ == TrackerState::kLost || state_ == TrackerState::kInitializing) {
-    if (misfit || unmeasured || hidden) return;
+    if (misfit || unmeasured || hidden || is_blind) return;
     if (state_ == TrackerState::kLost) {
       found_s_ = score_ >= scoreOfAFind(assessment) ? found_s_ + dt_s : 0.0;
       if (found_s_ < kFoundAfterS) return;
@@ -63,7 +69,7 @@ void StatusMonitor::classify(const PoseAssessment& assessment, double dt_s) {
     state_ = TrackerState::kOccluded;
     reason_ =
         "no depth readings where the object is expected: is the lens covered, or the object too near or too shiny?";
-  } else if (hidden) {
+  } else if (hidden || is_blind) {
     state_ = TrackerState::kOccluded;
     reason_ = "the object is hidden: holding the last pose until it is seen again";
   } else {

@@ -4,12 +4,14 @@
 
 #include "depth_object_tracker/filter/occlusion_tiles.h"
 #include "depth_object_tracker/filter/pose_likelihood.h"
+#include "depth_object_tracker/filter/tile_fit.h"
 #include "depth_object_tracker/filter/tile_likelihood.h"
 #include "depth_object_tracker/filter/worker_pool.h"
 #include "depth_object_tracker/geometry/triangle_mesh.h"
 #include "depth_object_tracker/model/measured_image.h"
-#include "depth_object_tracker/render/tile_renderer.h"
+#include "depth_object_tracker/render/render_levels.h"
 
+#include <memory>
 #include <vector>
 
 namespace depth_object_tracker {
@@ -22,12 +24,27 @@ struct PoseAssessment {
   double log_likelihood = 0.0;  ///< [nat]
   double achieved = 0.0;        ///< log ratio [nat] summed with the pixels' probability not to be occluded
   double expected = 0.0;        ///< ... and what the sensor model expects of it at the true pose
+  int through_pixels = 0;       ///< measured pixels with a reading clearly behind the object
   int surrounding_pixels = 0;   ///< measured pixels just outside of the outline
   int continued_pixels = 0;     ///< ... of which with a reading that carries on the surface beside them
 };
 
+/// The rendered shape of an object, and the point of it that poses are about.
+struct ObjectShape {
+  /// @param level_of_detail false: only the mesh itself.
+  ObjectShape(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object, bool level_of_detail = true);
+
+  std::shared_ptr<const RenderLevels> levels;
+  Eigen::Vector3d centre_object;  ///< [m]
+  double radius_m;                ///< of the bounding sphere about the centre
+};
+
 class DepthLikelihood : public PoseLikelihood {
  public:
+  /// @param shape rendered at the coarsest level whose error is small against pixels and noise.
+  DepthLikelihood(const ObjectShape& shape, const PixelModelConfig& pixel_config,
+                  const OcclusionChainConfig& occlusion_config, int num_particles, std::shared_ptr<WorkerPool> pool);
+
   /// @param centre_object [m] point of the object frame that poses are about.
   /// @param level_of_detail render the coarsest simplified mesh whose error is small against pixels and noise; false:
   /// always the mesh itself.
@@ -39,6 +56,9 @@ class DepthLikelihood : public PoseLikelihood {
   /// other than the last one's forgets them. The view must stay valid until the next call.
   void setImage(const DepthImageView& view, const SamplingGrid& grid, double dt_s);
 
+  /// Makes the whole image available, for poses anywhere in it. @param level_error_m [m] of the mesh that is rendered.
+  void prepareWholeImage(double level_error_m);
+
   /// Forgets all beliefs about occlusion.
   void resetOcclusion() { memory_.reset(); }
 
@@ -48,9 +68,15 @@ class DepthLikelihood : public PoseLikelihood {
   Linearisation linearise(const Pose& T_camera_centre, double extra_stddev_m, int thread) override;
   void update(const std::vector<Pose>& T_camera_centre, std::vector<double>& log_likelihoods) override;
   void resample(const std::vector<int>& source) override;
-  int numThreads() const override { return pool_.numThreads(); }
+  int numThreads() const override { return pool_->numThreads(); }
+  void parallelFor(int count, const WorkerPool::Task& task) override { pool_->run(count, task); }
 
-  PoseAssessment assess(const Pose& T_camera_centre, int thread);
+  /// A reading matches within the pixel's noise and `tolerance_m`. All zero outside of what is prepared. Thread-safe
+  /// for different `thread`.
+  TileFit countFit(const Pose& T_camera_centre, double tolerance_m, int thread);
+
+  /// @param extra_stddev_m widens the surface noise. Thread-safe for different `thread` where the image is prepared.
+  PoseAssessment assess(const Pose& T_camera_centre, int thread, double extra_stddev_m = 0.0);
 
   /// sum_l w_l p_l / sum_l w_l over the particles that cover a pixel; NaN where they weigh under 0.5. Whole grid,
   /// row-major.
@@ -62,8 +88,7 @@ class DepthLikelihood : public PoseLikelihood {
 
   const MeasuredImage& image() const { return image_; }
   OcclusionTiles& memory() { return memory_; }
-  WorkerPool& pool() { return pool_; }
-  double radius() const { return radius_; }
+  double radius() const { return shape_.radius_m; }
 
   /// Number of triangles rendered for the present image, and of the mesh itself.
   std::size_t renderedTriangles() const { return object_->mesh.triangles.size(); }
@@ -90,16 +115,14 @@ class DepthLikelihood : public PoseLikelihood {
   TileLikelihoodInput input() const;
   double updateParticle(int index, const Pose& T_camera_centre, int thread);
 
-  std::vector<RenderObject> levels_;  // from fine to coarse
-  const RenderObject* object_;        // the one that is used for this image; never null
+  ObjectShape shape_;
+  const RenderObject* object_;  // the level that is used for this image; never null
   bool is_level_chosen_ = false;
   PixelModelConfig pixel_config_;
-  Eigen::Vector3d centre_object_;
-  double radius_;          // of the bounding sphere about the centre [m]
   double edge_stddev_px_;  // full resolution
   MeasuredImage image_;
   OutlineCoverage outline_;
-  WorkerPool pool_;
+  std::shared_ptr<WorkerPool> pool_;
   OcclusionTiles memory_;
   std::vector<double> weights_;
   std::vector<Scratch> scratch_;  // one per thread

@@ -42,29 +42,32 @@ class ModeSearch {
   std::vector<LocalMode> run(const PredictedPose& predicted, const std::vector<ModeSearchStart>& starts,
                              const std::vector<Pose>& hypotheses, std::size_t max_modes);
 
-  int likelihoodEvaluations() const { return likelihood_evaluations_; }
-
  private:
+  /// task(index, thread) for every index in [0, count), on the likelihood's threads.
+  template <typename Task>
+  void forEach(std::size_t count, const Task& task) const;
   bool isOutOfReach(const LocalMode& mode, const PredictedPose& predicted) const;
   std::vector<Pose> bestOf(const std::vector<Pose>& hypotheses) const;
-  LocalMode climb(const PredictedPose& predicted, const ModeSearchStart& start);
+  LocalMode climb(const PredictedPose& predicted, const ModeSearchStart& start, int thread) const;
   Vector6d newtonStep(const PredictedPose& predicted, const Matrix6d& prior_information, const Linearisation& model,
                       const Pose& pose) const;
-  LocalMode exploreFreeDirections(const PredictedPose& predicted, LocalMode mode);
+  LocalMode exploreFreeDirections(const PredictedPose& predicted, LocalMode mode) const;
   /// Directions that the posterior leaves widest, and how far to probe along each [units of the direction].
   std::vector<std::pair<Vector6d, double>> freeDirections(const LocalMode& mode) const;
-  /// Measures slope and curvature along a direction. @return a pose met on the way that is better than the mode.
-  std::optional<Pose> probeDirection(const PredictedPose& predicted, const Vector6d& direction, double reach,
-                                     LocalMode& mode);
+  /// Measures slope and curvature along them. @return a pose met on the way that is better than the mode.
+  std::optional<Pose> probeFreeDirections(const PredictedPose& predicted, LocalMode& mode) const;
+  std::optional<Pose> betterPose(const PredictedPose& predicted, const LocalMode& mode, const std::vector<Pose>& poses,
+                                 const std::vector<double>& values) const;
+  /// @param values of gamma * log L at kProbeOffsets * reach along `direction` from the mode.
+  static void takeMeasuredCurvature(const Vector6d& direction, double reach, const double* values, LocalMode& mode);
   Matrix6d priorInformation(const PredictedPose& predicted) const;
   double logPrior(const Pose& pose, const PredictedPose& predicted) const;
-  double temperedLogLikelihood(const Pose& pose);
+  double temperedLogLikelihood(const Pose& pose, int thread) const;
 
   PoseLikelihood& likelihood_;
   const ProcessStep& step_;
   double exponent_;
   double object_radius_m_;
-  int likelihood_evaluations_ = 0;
 };
 
 }  // namespace depth_object_tracker

@@ -48,6 +48,12 @@ class ParticleFilter {
   FilterEstimate update(PoseLikelihood& likelihood, const ProcessStep& step, double likelihood_exponent,
                         const std::vector<Pose>& hypotheses = {});
 
+  /// One frame that says nothing of the pose: the particles move as the process has it, without weighing.
+  FilterEstimate hold(PoseLikelihood& likelihood, const ProcessStep& step);
+
+  /// Takes the last update() back, but for its resampling.
+  void undo();
+
   /// Before resampling.
   const std::vector<Pose>& poses() const { return poses_; }
   const std::vector<double>& weights() const { return weights_; }
@@ -56,6 +62,7 @@ class ParticleFilter {
   void stopMotion();
 
  private:
+  void summarise(FilterEstimate& estimate, const ProcessStep& step);
   void resampleIfNeeded(PoseLikelihood& likelihood);
   void predict(const ProcessStep& step);
   std::vector<LocalMode> findModes(PoseLikelihood& likelihood, const ProcessStep& step, double exponent,
@@ -79,6 +86,10 @@ class ParticleFilter {
   std::vector<Pose> poses_;           // T_camera_centre
   std::vector<Vector6d> velocities_;  // of the centre
   std::vector<double> weights_;       // sum 1
+  std::vector<Pose> poses_before_;    // the last update: see undo()
+  std::vector<Vector6d> velocities_before_;
+  std::vector<double> weights_before_;
+  Pose last_mean_before_ = Pose::Identity();
   std::vector<Pose> predicted_;
   std::vector<double> log_proposal_ratio_;  // log p(r | r_prev) - log q(r)
   std::vector<double> log_likelihoods_;

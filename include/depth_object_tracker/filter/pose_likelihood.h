@@ -5,6 +5,7 @@
 
 #include "depth_object_tracker/geometry/pose.h"
 
+#include <functional>
 #include <vector>
 
 namespace depth_object_tracker {
@@ -43,6 +44,11 @@ class PoseLikelihood {
   virtual void resample(const std::vector<int>& source) = 0;
 
   virtual int numThreads() const { return 1; }
+
+  /// Calls task(index, thread) for every index in [0, count), each once, on numThreads() threads.
+  virtual void parallelFor(int count, const std::function<void(int index, int thread)>& task) {
+    for (int index = 0; index < count; ++index) task(index, 0);
+  }
 };
 
 }  // namespace depth_object_tracker

@@ -18,7 +18,7 @@ struct PixelModelConfig {
   double tail_weight = 0.01;    ///< beta: share of readings that are anything in (0, max_depth_m)
   double max_depth_m = 6.0;     ///< m: readings beyond are treated as missing
   double min_p_occluded_in_front =
-      0.5;  ///< p(occluded), at least, of readings far in front of the object; 0 = unused (the paper)
+      0.8;  ///< p(occluded), at least, of readings far in front of the object; 0 = unused (the paper)
   double occluder_half_life_m = 1.0;  ///< depth over which the occluders' density halves
 };
 

@@ -35,10 +35,8 @@ class ProcessStep {
   /// @param variances [m^2, rad^2] of the centre's pose.
   ProcessStep(const ProcessConfig& config, const Vector6d& variances);
 
-  /// The same with a wide component of its own, for an object that may have gone anywhere near by while it was not
-  /// seen.
-  /// @param share in (0, 1) of the wide component. @param variances [m^2, rad^2]; narrower ones than now are ignored.
-  void allowJump(double share, const Vector6d& variances);
+  /// The same without sudden motion, for an object that nothing is seen of.
+  void excludeSuddenMotion();
 
   /// Expected pose at the end of the interval.
   /// @param velocity of the centre, [m/s, rad/s], camera axes; used when the object is not held.

@@ -29,6 +29,10 @@ class ObjectTracker {
   /// @param covariance of the mesh origin's pose (REP-103 order); all zero = the configured default.
   void initialise(const Pose& T_camera_object, const Matrix6d& covariance = Matrix6d::Zero());
 
+  /// Starts anew with nothing but the images: INITIALIZING, without a pose, until the object is surely seen. Takes some
+  /// tenths of a second of computing an image; needs the informed proposal.
+  void initialiseAnywhere();
+
   /// Forgets the object: UNINITIALIZED until the next initialise().
   void reset();
 

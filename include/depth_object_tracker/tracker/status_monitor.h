@@ -18,8 +18,9 @@ class StatusMonitor {
   void restart();
   void reset() { state_ = TrackerState::kUninitialized; }
 
-  /// @param dt_s since the last image that was used.
-  void update(const PoseAssessment& assessment, double dt_s);
+  /// @param dt_s since the last image that was used. @param is_blind the estimate is not fitted to the image but held
+  /// until the object is surely seen again.
+  void update(const PoseAssessment& assessment, double dt_s, bool is_blind = false);
 
   TrackerState state() const { return state_; }
   const std::string& reason() const { return reason_; }
@@ -28,7 +29,7 @@ class StatusMonitor {
   double score() const { return score_; }                       ///< 1 = as the sensor model expects
 
  private:
-  void classify(const PoseAssessment& assessment, double dt_s);
+  void classify(const PoseAssessment& assessment, double dt_s, bool is_blind);
 
   StatusConfig config_;
   TrackerState state_ = TrackerState::kUninitialized;

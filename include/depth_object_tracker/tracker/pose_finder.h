@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Looks for the object in one image: many hypotheses on few pixels, the best of them climbed on ever more.
+#pragma once
+
+#include "depth_object_tracker/filter/depth_likelihood.h"
+#include "depth_object_tracker/filter/likelihood_climb.h"
+#include "depth_object_tracker/filter/random.h"
+#include "depth_object_tracker/tracker/oriented_points.h"
+#include "depth_object_tracker/tracker/sparse_fit.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace depth_object_tracker {
+
+/// A pose that explains the image in its neighbourhood best.
+struct FoundPose {
+  Pose T_camera_centre = Pose::Identity();
+  PoseAssessment assessment;
+  double quality = 0.0;  ///< see findQuality()
+};
+
+/// How sure one can be that the object, rather than something else, is seen at a pose: 1 when all of it is visible,
+/// fits as the sensor model expects and stands out from what is beside it. Image alone, nothing of the past.
+double findQuality(const PoseAssessment& assessment);
+
+/// How many poses go into each stage of the search.
+struct SearchEffort {
+  int drawn = 0;     ///< compared with the image at a few points
+  int rendered = 0;  ///< of which rendered on few pixels
+  int climbed = 0;   ///< of which climbed
+  int refined = 0;   ///< of which climbed on more pixels
+};
+
+class PoseFinder {
+ public:
+  PoseFinder(const ObjectShape& shape, const TriangleMesh& mesh, double diameter_m, const PixelModelConfig& config,
+             std::uint64_t seed, std::shared_ptr<WorkerPool> pool);
+
+  /// A new image; the view must stay valid until the last search in it. @param distance_m at which the object is
+  /// expected, for the resolutions.
+  void setImage(const DepthImageView& depth, const PinholeCamera& camera, double distance_m);
+
+  /// Looks everywhere in the image. The best pose first.
+  std::vector<FoundPose> searchEverywhere(const SearchEffort& effort);
+
+  /// Looks around poses. @param variances [m^2, rad^2] of the displacement, see perturb().
+  std::vector<FoundPose> searchAround(const std::vector<Pose>& T_camera_centre, const Vector6d& variances,
+                                      const SearchEffort& effort);
+
+  /// The same pose, moved to where the prior has it along directions that the image leaves free.
+  FoundPose settle(const FoundPose& found, const Pose& T_camera_centre_prior, const Vector6d& variances);
+
+  /// How surely the object is at a given pose.
+  FoundPose judge(const Pose& T_camera_centre);
+
+ private:
+  struct Ranked {
+    Pose pose;
+    double quality;
+  };
+  Pose drawAnywhere(std::uint64_t number) const;
+  template <typename Draw>
+  std::vector<Pose> drawBest(const SearchEffort& effort, const Draw& draw);
+  template <typename Judge>
+  std::vector<Ranked> rank(const std::vector<Pose>& poses, const Judge& judge) const;
+  std::vector<Pose> distinctBest(const std::vector<Ranked>& ranked, int count, double apart_m) const;
+  void climbAll(DepthLikelihood& likelihood, const ClimbSchedule& schedule, std::vector<Pose>& poses) const;
+  std::vector<FoundPose> climbBest(const std::vector<Pose>& poses, const SearchEffort& effort);
+
+  double diameter_m_;
+  double radius_m_;
+  double max_depth_m_;
+  RandomSource random_;
+  std::shared_ptr<WorkerPool> pool_;
+  std::vector<OrientedPoint> object_points_, image_points_;
+  SparseFit sparse_;
+  DepthLikelihood coarse_, fine_;
+  DepthImageView depth_;
+  PinholeCamera camera_;
+  int step_px_ = 1;
+  std::uint64_t drawn_ = 0;
+  std::vector<Ranked> draws_;  // scratch
+};
+
+}  // namespace depth_object_tracker

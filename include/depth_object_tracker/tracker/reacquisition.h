@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Looks for an object that is hidden or lost, image after image, until it is surely seen again.
+#pragma once
+
+#include "depth_object_tracker/tracker/pose_finder.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace depth_object_tracker {
+
+/// Where the object may be.
+struct SearchRegion {
+  Pose T_camera_centre = Pose::Identity();
+  Vector6d variances = Vector6d::Ones();  ///< [m^2, rad^2]
+  bool is_known = true;                   ///< false: anywhere in the image
+  bool everywhere = false;                ///< is_known: also in the rest of the image
+};
+
+class Reacquisition {
+ public:
+  explicit Reacquisition(std::unique_ptr<PoseFinder> finder) : finder_(std::move(finder)) {}
+
+  /// Forgets what was seen in earlier images.
+  void restart() { survivors_.clear(); }
+
+  /// One image. @return the pose of the object's centre once it is sure: the farther from the expected place, the
+  /// surer it must be.
+  std::optional<Pose> search(const DepthImageView& depth, const PinholeCamera& camera, const SearchRegion& region);
+
+  /// Looks around an estimate that may be in the wrong place. @return a pose where the object is more surely seen.
+  std::optional<Pose> findBetter(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre,
+                                 const Vector6d& variances);
+
+  /// What the last search found, surest first.
+  const std::vector<FoundPose>& found() const { return found_; }
+
+ private:
+  bool wasThereBefore(const Pose& T_camera_centre) const;
+
+  std::unique_ptr<PoseFinder> finder_;
+  std::vector<Pose> survivors_;  // best poses of the image before
+  std::vector<FoundPose> found_;
+};
+
+}  // namespace depth_object_tracker

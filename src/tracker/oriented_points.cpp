@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_object_tracker/tracker/oriented_points.h"
+
+#include "depth_object_tracker/render/depth_renderer.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace depth_object_tracker {
+namespace {
+
+constexpr int kPatchSide = 7;  // readings looked at along a patch's side
+
+float readingAt(const DepthImageView& depth, int row, int col) {
+  if (row < 0 || row >= depth.height || col < 0 || col >= depth.width) return 0.0f;
+  const float z = depth.at(row, col);
+  return z > 0.0f ? z : 0.0f;
+}
+
+/// True when the surface goes on as a plane to both sides along a line of the image. Inverse depth is linear in pixel
+/// coordinates on a plane.
+bool isFlatAlong(const DepthImageView& depth, int row, int col, int d_row, int d_col, float z) {
+  constexpr float kTolerancePerM = 0.012f;  // of depth, at 1 m; grows with its square as the noise does
+  const float before = readingAt(depth, row - d_row, col - d_col), after = readingAt(depth, row + d_row, col + d_col);
+  if (!(before > 0.0f) || !(after > 0.0f)) return false;
+  const float middle = 2.0f / (1.0f / before + 1.0f / after);
+  return std::abs(middle - z) < kTolerancePerM * z * z;
+}
+
+bool liesOnLargePlane(const DepthImageView& depth, const PinholeCamera& camera, int row, int col, float z,
+                      double object_diameter_m) {
+  constexpr double kReachPerDiameter = 0.55;
+  constexpr int kFlatLines = 3;
+  const int reach =
+      std::max(2, static_cast<int>(kReachPerDiameter * object_diameter_m * camera.fx / static_cast<double>(z)));
+  const int diagonal = reach * 7 / 10;
+  return isFlatAlong(depth, row, col, 0, reach, z) + isFlatAlong(depth, row, col, reach, 0, z) +
+             isFlatAlong(depth, row, col, diagonal, diagonal, z) +
+             isFlatAlong(depth, row, col, diagonal, -diagonal, z) >=
+         kFlatLines;
+}
+
+/// Adds `candidate` unless one like it is there.
+void addIfNew(const OrientedPoint& candidate, double apart_m, std::vector<OrientedPoint>& points) {
+  constexpr double kSameNormalCosine = 0.85;
+  const bool known = std::any_of(points.begin(), points.end(), [&](const OrientedPoint& other) {
+    return (other.point - candidate.point).squaredNorm() < apart_m * apart_m &&
+           other.normal.dot(candidate.normal) > kSameNormalCosine;
+  });
+  if (!known) points.push_back(candidate);
+}
+
+}  // namespace
+
+std::optional<OrientedPoint> orientedPointAt(const DepthImageView& depth, const PinholeCamera& camera, int row, int col,
+                                             double reach_m) {
+  constexpr int kLeastReadings = 12;
+  constexpr double kLargestRatio = 0.15;  // of the patch's thickness to its breadth
+  const auto z = static_cast<double>(readingAt(depth, row, col));
+  if (!(z > 0.0)) return std::nullopt;
+  const double step_px = std::max(1.0, 2.0 * reach_m * camera.fx / z / (kPatchSide - 1));
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  int count = 0;
+  for (int i = -kPatchSide / 2; i <= kPatchSide / 2; ++i) {
+    for (int j = -kPatchSide / 2; j <= kPatchSide / 2; ++j) {
+      const int r = row + static_cast<int>(std::lround(i * step_px)),
+                c = col + static_cast<int>(std::lround(j * step_px));
+      const auto reading = static_cast<double>(readingAt(depth, r, c));
+      if (!(reading > 0.0) || std::abs(reading - z) > 1.5 * reach_m) continue;
+      const Eigen::Vector3d p = reading * camera.ray(c, r);
+      mean += p;
+      scatter += p * p.transpose();
+      ++count;
+    }
+  }
+  if (count < kLeastReadings) return std::nullopt;
+  mean /= count;
+  scatter = scatter / count - mean * mean.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(scatter);
+  if (axes.eigenvalues()[0] > kLargestRatio * axes.eigenvalues()[1]) return std::nullopt;
+  Eigen::Vector3d normal = axes.eigenvectors().col(0);
+  if (normal.dot(mean) > 0.0) normal = -normal;
+  return OrientedPoint{mean, normal};
+}
+
+std::vector<OrientedPoint> imagePoints(const DepthImageView& depth, const PinholeCamera& camera,
+                                       double object_diameter_m, double max_depth_m, int step_px) {
+  std::vector<OrientedPoint> points;
+  for (int row = step_px / 2; row < depth.height; row += step_px) {
+    for (int col = step_px / 2; col < depth.width; col += step_px) {
+      const float z = readingAt(depth, row, col);
+      if (!(z > 0.0f && z <= static_cast<float>(max_depth_m))) continue;
+      if (liesOnLargePlane(depth, camera, row, col, z, object_diameter_m)) continue;
+      if (const auto point = orientedPointAt(depth, camera, row, col, kPatchReachPerDiameter * object_diameter_m)) {
+        points.push_back(*point);
+      }
+    }
+  }
+  return points;
+}
+
+std::vector<OrientedPoint> objectPoints(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object) {
+  constexpr int kViews = 60, kImageSize = 96, kStep = 5;
+  constexpr double kDistanceInDiameters = 4.0, kApartPerDiameter = 0.09;
+  const double diameter_m = std::max(diameter(mesh), 1e-6), distance = kDistanceInDiameters * diameter_m;
+  const PinholeCamera camera{kImageSize,
+                             kImageSize,
+                             0.9 * kImageSize * kDistanceInDiameters,
+                             0.9 * kImageSize * kDistanceInDiameters,
+                             0.5 * (kImageSize - 1),
+                             0.5 * (kImageSize - 1)};
+  DepthRenderer renderer(mesh);
+  std::vector<OrientedPoint> points;
+  std::vector<float> image(static_cast<std::size_t>(kImageSize * kImageSize));
+  DepthImageView view;
+  view.data = reinterpret_cast<const std::uint8_t*>(image.data());
+  view.width = view.height = kImageSize;
+  view.step = kImageSize * sizeof(float);
+  view.pixel_type = DepthImageView::PixelType::kFloat32;
+  view.unit_m = 1.0;
+  for (int index = 0; index < kViews; ++index) {
+    const Eigen::Matrix3d R = evenlySpreadRotation(static_cast<std::size_t>(index));
+    Pose T_camera_object = Pose::Identity();
+    T_camera_object.linear() = R;
+    T_camera_object.translation() = Eigen::Vector3d(0.0, 0.0, distance) - R * centre_object;
+    std::fill(image.begin(), image.end(), 0.0f);
+    for (const CoveredPixel& pixel : renderer.render(T_camera_object, camera)) {
+      image[static_cast<std::size_t>(pixel.row * kImageSize + pixel.col)] = pixel.depth;
+    }
+    for (int row = kStep / 2; row < kImageSize; row += kStep) {
+      for (int col = kStep / 2; col < kImageSize; col += kStep) {
+        const auto seen = orientedPointAt(view, camera, row, col, kPatchReachPerDiameter * diameter_m);
+        if (!seen) continue;
+        const Eigen::Vector3d from_centre = seen->point - Eigen::Vector3d(0.0, 0.0, distance);
+        addIfNew({R.transpose() * from_centre, R.transpose() * seen->normal}, kApartPerDiameter * diameter_m, points);
+      }
+    }
+  }
+  return points;
+}
+
+Pose layOn(const OrientedPoint& image_point, const OrientedPoint& object_point, double turn_rad) {
+  Pose pose = Pose::Identity();
+  pose.linear() = Eigen::AngleAxisd(turn_rad, image_point.normal).toRotationMatrix() *
+                  Eigen::Quaterniond::FromTwoVectors(object_point.normal, image_point.normal).toRotationMatrix();
+  pose.translation() = image_point.point - pose.linear() * object_point.point;
+  return pose;
+}
+
+Eigen::Matrix3d evenlySpreadRotation(std::size_t index) {
+  // Additive recurrence with the generalised golden ratio of three dimensions (root of x^4 = x + 1), mapped to unit
+  // quaternions as Shoemake (Graphics Gems III, 1992) does with uniform numbers.
+  constexpr double kRatio = 1.2207440846057594;
+  const auto fraction = [&](double power) {
+    const double value = 0.5 + static_cast<double>(index) / power;
+    return value - std::floor(value);
+  };
+  const double u1 = fraction(kRatio), u2 = fraction(kRatio * kRatio), u3 = fraction(kRatio * kRatio * kRatio);
+  const double a = std::sqrt(1.0 - u1), b = std::sqrt(u1);
+  const Eigen::Quaterniond q(b * std::cos(2.0 * M_PI * u3), a * std::sin(2.0 * M_PI * u2),
+                             a * std::cos(2.0 * M_PI * u2), b * std::sin(2.0 * M_PI * u3));
+  return q.normalized().toRotationMatrix();
+}
+
+}  // namespace depth_object_tracker

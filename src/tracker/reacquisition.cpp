@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_object_tracker/tracker/reacquisition.h"
+
+#include <algorithm>
+
+namespace depth_object_tracker {
+namespace {
+
+constexpr SearchEffort kAround{3000, 400, 60, 16};
+constexpr SearchEffort kEverywhere{6000, 800, 100, 16};
+constexpr SearchEffort kEverywhereAtTheStart{40000, 4000, 800, 40};
+constexpr SearchEffort kOfSurvivors{60, 60, 20, 10};
+constexpr std::size_t kSurvivors = 6;
+constexpr double kSameM = 0.05, kSameRad = 0.5;  // from image to image
+
+Vector6d survivorVariances() {
+  Vector6d variances;
+  variances.head<3>().setConstant(0.012 * 0.012);
+  variances.tail<3>().setConstant(0.12 * 0.12);
+  return variances;
+}
+
+double squaredDistance(const Pose& pose, const SearchRegion& region) {
+  return difference(pose, region.T_camera_centre).cwiseAbs2().cwiseQuotient(region.variances).sum();
+}
+
+/// Of poses that fit about as well as the first, the one nearest to what is expected.
+const FoundPose& likeliestOfTheBest(const std::vector<FoundPose>& found, const SearchRegion& region) {
+  constexpr double kAboutAsWell = 0.06;
+  const FoundPose* likeliest = &found.front();
+  for (const FoundPose& one : found) {
+    if (one.quality < found.front().quality - kAboutAsWell) continue;
+    if (squaredDistance(one.T_camera_centre, region) < squaredDistance(likeliest->T_camera_centre, region)) {
+      likeliest = &one;
+    }
+  }
+  return *likeliest;
+}
+
+/// Quality that a pose needs to be taken for the object.
+double neededQuality(const Pose& pose, const SearchRegion& region, bool was_there_before) {
+  constexpr double kNear = 0.4, kFar = 0.62, kFarSquared = 12.0, kSecondLook = 0.06;
+  const double share = region.is_known ? std::min(1.0, squaredDistance(pose, region) / kFarSquared) : 1.0;
+  return kNear + (kFar - kNear) * share + (was_there_before ? -kSecondLook : kSecondLook);
+}
+
+double fitOfWhatIsSeen(const PoseAssessment& assessment) {
+  const double visible = assessment.visible_pixels / std::max(1, assessment.measured_pixels);
+  return findQuality(assessment) / std::max(0.05, visible);
+}
+
+}  // namespace
+
+bool Reacquisition::wasThereBefore(const Pose& T_camera_centre) const {
+  return std::any_of(survivors_.begin(), survivors_.end(), [&](const Pose& other) {
+    const Vector6d d = difference(T_camera_centre, other);
+    return d.head<3>().norm() < kSameM && d.tail<3>().norm() < kSameRad;
+  });
+}
+
+std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const PinholeCamera& camera,
+                                          const SearchRegion& region) {
+  finder_->setImage(depth, camera, std::max(0.2, region.T_camera_centre.translation().z()));
+  found_.clear();
+  if (region.is_known) found_ = finder_->searchAround({region.T_camera_centre}, region.variances, kAround);
+  const auto add = [this](const std::vector<FoundPose>& more) {
+    found_.insert(found_.end(), more.begin(), more.end());
+  };
+  add(finder_->searchAround(survivors_, survivorVariances(), kOfSurvivors));
+  if (!region.is_known) add(finder_->searchEverywhere(kEverywhereAtTheStart));
+  if (region.is_known && region.everywhere) add(finder_->searchEverywhere(kEverywhere));
+
+  const auto margin = [&](const FoundPose& one) {
+    return one.quality - neededQuality(one.T_camera_centre, region, wasThereBefore(one.T_camera_centre));
+  };
+  std::stable_sort(found_.begin(), found_.end(),
+                   [&](const FoundPose& a, const FoundPose& b) { return margin(a) > margin(b); });
+  const bool is_sure = !found_.empty() && margin(found_.front()) > 0.0;
+  survivors_.clear();
+  for (const FoundPose& one : found_) {
+    if (survivors_.size() < kSurvivors) survivors_.push_back(one.T_camera_centre);
+  }
+  if (!is_sure) return std::nullopt;
+  if (!region.is_known) return found_.front().T_camera_centre;
+  return finder_->settle(likeliestOfTheBest(found_, region), region.T_camera_centre, region.variances).T_camera_centre;
+}
+
+std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const PinholeCamera& camera,
+                                              const Pose& T_camera_centre, const Vector6d& variances) {
+  constexpr double kSurer = 0.08, kElsewhereM = 0.01, kElsewhereRad = 0.2;
+  finder_->setImage(depth, camera, std::max(0.2, T_camera_centre.translation().z()));
+  found_ = finder_->searchAround({T_camera_centre}, variances, kAround);
+  const FoundPose now = finder_->judge(T_camera_centre);
+  // How much is hidden does not matter here: a mug whose handle is behind it hides less than one with it in the hand.
+  if (found_.empty() || fitOfWhatIsSeen(found_.front().assessment) < fitOfWhatIsSeen(now.assessment) + kSurer) {
+    return std::nullopt;
+  }
+  if (found_.front().assessment.log_likelihood < now.assessment.log_likelihood) return std::nullopt;
+  const Vector6d moved = difference(found_.front().T_camera_centre, T_camera_centre);
+  if (moved.head<3>().norm() < kElsewhereM && moved.tail<3>().norm() < kElsewhereRad) return std::nullopt;
+  return finder_->settle(found_.front(), T_camera_centre, variances).T_camera_centre;
+}
+
+}  // namespace depth_object_tracker
