@@ -7,6 +7,7 @@
 #include "depth_object_tracker/ros/held_motion.h"
 #include "depth_object_tracker/ros/initial_pose_resolver.h"
 #include "depth_object_tracker/ros/object_source.h"
+#include "depth_object_tracker/ros/self_check.h"
 #include "depth_object_tracker/ros/throttled_log.h"
 #include "depth_object_tracker/tracker/frame_budget.h"
 
@@ -19,6 +20,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace depth_object_tracker {
 
@@ -79,6 +81,12 @@ class TrackerSession {
   const std::string& cameraFrame() const { return camera_frame_; }
   const std_msgs::Header& lastHeader() const { return last_header_; }
 
+  /// What the self-check finds suspicious, one sentence each.
+  std::vector<std::string> findings() const { return self_check_.findings(); }
+
+  /// Why the tree of frames cannot place the camera; "" when it can, or when no image has come yet.
+  std::string missingParent() const { return describeMissingParent(camera_frame_, tf_); }
+
  private:
   struct PendingPose {
     InitialPose pose;
@@ -94,10 +102,12 @@ class TrackerSession {
 
   std::string viewFrame(const CameraFrame& frame, FrameOutcome& outcome);
   void warnAboutCalibration(const CameraFrame& frame);
-  std::string applyPendingPose(double stamp_s);
+  void checkSetUp(const CameraFrame& frame, const FrameOutcome& outcome);
+  std::string applyPendingPose(const FrameOutcome& outcome);
   bool restoreGivenPose(double stamp_s);
   std::optional<ControlInput> controlFor(double stamp_s);
   void runTracker(FrameOutcome& outcome);
+  void explainByFindings(TrackerResult& result);
   void reportInput(FrameOutcome& outcome, bool is_restored);
   void answerWaiting(const FrameOutcome& outcome);
   TrackerResult refusedResult(const std::string& reason) const;
@@ -107,6 +117,7 @@ class TrackerSession {
   Intrinsics intrinsics_;
   tf2::BufferCore& tf_;
   ThrottledLog log_;
+  SelfCheck self_check_;
 
   BuiltTracker object_;
   FrameBudget budget_{BudgetConfig()};
