@@ -7,6 +7,7 @@ add_library(depth_object_tracker_ros SHARED
   src/robot/twist_buffer.cpp
   src/ros/camera_conversions.cpp
   src/ros/camera_info_matcher.cpp
+  src/ros/drop_watch.cpp
   src/ros/frame_inbox.cpp
   src/ros/held_motion.cpp
   src/ros/image_conversions.cpp
@@ -22,6 +23,7 @@ add_library(depth_object_tracker_ros SHARED
   src/ros/result_publisher.cpp
   src/ros/self_check.cpp
   src/ros/status_builder.cpp
+  src/ros/tracker_diagnostics.cpp
   src/ros/tracker_nodelet.cpp
   src/ros/tracker_services.cpp
   src/ros/tracker_session.cpp

@@ -57,6 +57,8 @@ void TrackerNodelet::start() {
   if (!options.init_file.empty()) applyInitFile(options.init_file, session);
   worker_ = std::make_unique<TrackerWorker>(getName(), std::move(session), ResultPublisher(private_node, options),
                                             options.control_wait_s);
+  diagnostics_ = std::make_unique<TrackerDiagnostics>(getNodeHandle(), private_node, getName(), image_topic);
+  worker_->setDiagnosticSink([this](const DiagnosticSnapshot& snapshot) { diagnostics_->setSnapshot(snapshot); });
   services_ = std::make_unique<TrackerServices>(private_node, *worker_, *tf_buffer_);
   worker_->start();
   subscribeCommands();

@@ -8,7 +8,8 @@ add_tracker_test(ros_conversions_test
           ros/overlay_test.cpp
   LIBRARIES depth_object_tracker_ros)
 add_tracker_test(ros_inputs_test
-  SOURCES ros/camera_info_matcher_test.cpp ros/frame_inbox_test.cpp ros/parameter_loader_test.cpp ros/twist_buffer_test.cpp
+  SOURCES ros/camera_info_matcher_test.cpp ros/frame_inbox_test.cpp ros/parameter_loader_test.cpp ros/tracker_diagnostics_test.cpp
+          ros/twist_buffer_test.cpp
   LIBRARIES depth_object_tracker_ros)
 add_tracker_test(tracker_session_test SOURCES ros/tracker_session_test.cpp LIBRARIES depth_object_tracker_ros)
 
@@ -30,6 +31,7 @@ find_program(ROSTEST_PROGRAM rostest)
 if(ROSTEST_PROGRAM)
   add_ros_test(tracker_bad_input_rostest ros/tracker_bad_input_rostest.cpp)
   add_ros_test(tracker_bad_start_rostest ros/tracker_bad_start_rostest.cpp)
+  add_ros_test(tracker_diagnostics_rostest ros/tracker_diagnostics_rostest.cpp)
   add_ros_test(tracker_outputs_rostest ros/tracker_outputs_rostest.cpp)
   add_ros_test(tracker_services_rostest ros/tracker_services_rostest.cpp)
   add_ros_test(zero_copy_rostest ros/zero_copy_rostest.cpp)

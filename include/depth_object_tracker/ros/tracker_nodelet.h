@@ -3,6 +3,7 @@
 #pragma once
 
 #include "depth_object_tracker/ros/camera_info_matcher.h"
+#include "depth_object_tracker/ros/tracker_diagnostics.h"
 #include "depth_object_tracker/ros/tracker_services.h"
 #include "depth_object_tracker/ros/tracker_worker.h"
 
@@ -34,6 +35,7 @@ class TrackerNodelet : public nodelet::Nodelet {
   // In the order of dependence: what is below uses what is above, and goes first.
   std::unique_ptr<tf2_ros::Buffer> tf_buffer_;
   std::unique_ptr<tf2_ros::TransformListener> tf_listener_;
+  std::unique_ptr<TrackerDiagnostics> diagnostics_;
   std::unique_ptr<TrackerWorker> worker_;
   std::unique_ptr<TrackerServices> services_;
   std::optional<CameraInfoMatcher> matcher_;
