@@ -12,6 +12,7 @@ add_library(depth_object_tracker_ros SHARED
   src/ros/held_motion.cpp
   src/ros/image_conversions.cpp
   src/ros/initial_pose_resolver.cpp
+  src/ros/live_reconfigure.cpp
   src/ros/marker_builder.cpp
   src/ros/message_conversions.cpp
   src/ros/object_source.cpp

@@ -53,14 +53,17 @@ void TrackerNodelet::start() {
   tf_listener_ = std::make_unique<tf2_ros::TransformListener>(*tf_buffer_);
 
   TrackerSession session(getName(), image_topic, info_topic, *tf_buffer_);
-  session.setTracker(buildFromParameters(options));
+  const BuiltTracker built = buildFromParameters(options);
+  session.setTracker(built);
   if (!options.init_file.empty()) applyInitFile(options.init_file, session);
   worker_ = std::make_unique<TrackerWorker>(getName(), std::move(session), ResultPublisher(private_node, options),
                                             options.control_wait_s);
   diagnostics_ = std::make_unique<TrackerDiagnostics>(getNodeHandle(), private_node, getName(), image_topic);
   worker_->setDiagnosticSink([this](const DiagnosticSnapshot& snapshot) { diagnostics_->setSnapshot(snapshot); });
   services_ = std::make_unique<TrackerServices>(private_node, *worker_, *tf_buffer_);
+  services_->setLoadedCallback([this](const TrackerConfig& config) { offerLiveParameters(config); });
   worker_->start();
+  if (built.tracker) offerLiveParameters(built.config);
   subscribeCommands();
   subscribe(image_topic, info_topic, options.image_transport);
 }
@@ -85,6 +88,15 @@ BuiltTracker TrackerNodelet::buildFromParameters(const NodeletOptions& options) 
     NODELET_ERROR_STREAM(getName() << ": " << built.problem);
   }
   return built;
+}
+
+/// Once there are parameters that are all good: those that are not stay as they are, for the user to see.
+void TrackerNodelet::offerLiveParameters(const TrackerConfig& config) {
+  const std::lock_guard<std::mutex> lock(live_mutex_);
+  if (live_) return;
+  live_ = std::make_unique<LiveReconfigure>(getPrivateNodeHandle(), config, [this](const TrackerConfig& changed) {
+    worker_->post([changed](TrackerSession& session) { session.setLiveParameters(changed); }, false);
+  });
 }
 
 void TrackerNodelet::applyInitFile(const std::string& init_file, TrackerSession& session) {

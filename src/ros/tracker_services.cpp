@@ -44,6 +44,11 @@ TrackerServices::~TrackerServices() {
   spinner_.stop();
 }
 
+void TrackerServices::setLoadedCallback(LoadedCallback callback) {
+  const std::lock_guard<std::mutex> lock(callback_mutex_);
+  loaded_callback_ = std::move(callback);
+}
+
 bool TrackerServices::initialize(InitializeTracker::Request& request, InitializeTracker::Response& response) {
   if (request.mode != InitializeTracker::Request::FROM_POSE) {
     response.message = "mode " + std::to_string(request.mode) + " is not available yet; use FROM_POSE (" +
@@ -151,6 +156,8 @@ bool TrackerServices::loadObject(LoadObject::Request& request, LoadObject::Respo
   response.diameter_m = built.tracker->diameterM();
   response.num_triangles = static_cast<std::uint32_t>(built.tracker->object().mesh.triangles.size());
   response.success = worker_.postTracker(built);
+  const std::lock_guard<std::mutex> lock(callback_mutex_);
+  if (response.success && loaded_callback_) loaded_callback_(built.config);
   response.message = response.success ? "loaded '" + built.name + "'; it needs an initial pose" : kStopped;
   return true;
 }

@@ -68,6 +68,12 @@ void TrackerSession::reset() {
   if (object_.tracker) object_.tracker->reset();
 }
 
+void TrackerSession::setLiveParameters(const TrackerConfig& changed) {
+  if (!object_.tracker) return;  // the parameter server keeps them for the next object
+  object_.tracker->setLiveParameters(changed);
+  budget_ = FrameBudget(object_.tracker->config().budget);
+}
+
 void TrackerSession::addTwist(const geometry_msgs::TwistStamped& twist) {
   const std::string problem = held_motion_.addTwist(twist, camera_frame_, tf_);
   if (!problem.empty()) log_.warn(problem);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "depth_object_tracker/ros/camera_info_matcher.h"
+#include "depth_object_tracker/ros/live_reconfigure.h"
 #include "depth_object_tracker/ros/tracker_diagnostics.h"
 #include "depth_object_tracker/ros/tracker_services.h"
 #include "depth_object_tracker/ros/tracker_worker.h"
@@ -13,6 +14,7 @@
 #include <tf2_ros/transform_listener.h>
 
 #include <memory>
+#include <mutex>
 #include <optional>
 
 namespace depth_object_tracker {
@@ -29,6 +31,7 @@ class TrackerNodelet : public nodelet::Nodelet {
   void subscribe(const std::string& image_topic, const std::string& info_topic, const std::string& transport);
   void subscribeCommands();
   std::string findInfoTopic(const std::string& image_topic);
+  void offerLiveParameters(const TrackerConfig& config);
   void onInitialPose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message);
   void onGrasp(const GraspConstPtr& message);
 
@@ -37,6 +40,8 @@ class TrackerNodelet : public nodelet::Nodelet {
   std::unique_ptr<tf2_ros::TransformListener> tf_listener_;
   std::unique_ptr<TrackerDiagnostics> diagnostics_;
   std::unique_ptr<TrackerWorker> worker_;
+  std::mutex live_mutex_;  // guards the creation of live_
+  std::unique_ptr<LiveReconfigure> live_;
   std::unique_ptr<TrackerServices> services_;
   std::optional<CameraInfoMatcher> matcher_;
   image_transport::Subscriber image_subscriber_;

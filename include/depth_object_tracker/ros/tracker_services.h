@@ -15,6 +15,8 @@
 #include <std_srvs/Trigger.h>
 
 #include <atomic>
+#include <functional>
+#include <mutex>
 #include <vector>
 
 namespace depth_object_tracker {
@@ -23,6 +25,10 @@ class TrackerServices {
  public:
   /// Answers calls at once. @param worker, tf outlive this object.
   TrackerServices(const ros::NodeHandle& private_node, TrackerWorker& worker, const tf2::BufferCore& tf);
+
+  /// Told the configuration of each object that was loaded, on a service's thread.
+  using LoadedCallback = std::function<void(const TrackerConfig&)>;
+  void setLoadedCallback(LoadedCallback callback);
 
   /// Ends waiting calls. The worker must still be there.
   ~TrackerServices();
@@ -45,6 +51,8 @@ class TrackerServices {
   ros::AsyncSpinner spinner_;
   std::vector<ros::ServiceServer> servers_;
   std::atomic<bool> stopping_{false};
+  std::mutex callback_mutex_;  // guards loaded_callback_
+  LoadedCallback loaded_callback_;
 };
 
 }  // namespace depth_object_tracker

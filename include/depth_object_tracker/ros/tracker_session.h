@@ -60,6 +60,7 @@ class TrackerSession {
   /// Says in log and status why a wished pose was refused; what is tracked goes on.
   void refuseInitialPose(const std::string& problem);
   void reset();
+  void setLiveParameters(const TrackerConfig& changed);
   void setPaused(bool paused) { paused_ = paused; }
   void setGrasp(bool grasped, const std::string& link) { held_motion_.setGrasp(grasped, link); }
   void addTwist(const geometry_msgs::TwistStamped& twist);
