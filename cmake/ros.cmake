@@ -11,6 +11,7 @@ add_library(depth_object_tracker_ros SHARED
   src/ros/frame_inbox.cpp
   src/ros/held_motion.cpp
   src/ros/image_conversions.cpp
+  src/ros/initial_pose_marker.cpp
   src/ros/initial_pose_resolver.cpp
   src/ros/live_reconfigure.cpp
   src/ros/marker_builder.cpp
@@ -19,6 +20,7 @@ add_library(depth_object_tracker_ros SHARED
   src/ros/overlay.cpp
   src/ros/parameter_loader.cpp
   src/ros/particle_messages.cpp
+  src/ros/pose_memory.cpp
   src/ros/pose_validation.cpp
   src/ros/rate_meter.cpp
   src/ros/result_publisher.cpp

@@ -49,6 +49,13 @@ void MarkerBuilder::setObject(const BuiltTracker& object) {
   }
 }
 
+visualization_msgs::Marker MarkerBuilder::ghost(float red, float green, float blue, float alpha) const {
+  visualization_msgs::Marker marker = template_;
+  marker.pose.orientation.w = 1.0;
+  marker.color = makeColor(red, green, blue, alpha);
+  return marker;
+}
+
 visualization_msgs::MarkerArrayPtr MarkerBuilder::build(const std_msgs::Header& header,
                                                         const TrackerResult& result) const {
   auto message = boost::make_shared<visualization_msgs::MarkerArray>();

@@ -89,6 +89,8 @@ NodeletOptions loadNodeletOptions(const ros::NodeHandle& private_node) {
   read("mesh", "the path of a mesh", options.object.mesh);
   read("mesh_scale", "a number (metres per unit of the mesh)", options.object.mesh_scale);
   read("init_file", "the path of a JSON file", options.init_file);
+  read("last_pose_file", "the path of a JSON file", options.last_pose_file);
+  read("interactive_marker", "true or false", options.interactive_marker);
   read("image_transport", "the name of an image transport", options.image_transport);
   read("robot", "true or false", options.robot);
   read("publish_tf", "true or false", options.publish_tf);

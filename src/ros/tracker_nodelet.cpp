@@ -25,11 +25,16 @@ std::string siblingName(const std::string& nodelet_name, const std::string& topi
 
 TrackerNodelet::~TrackerNodelet() {
   image_subscriber_.shutdown();
-  for (auto* subscriber : {&info_subscriber_, &initial_pose_subscriber_, &grasp_subscriber_, &twist_subscriber_}) {
+  for (auto* subscriber : {&info_subscriber_, &initial_pose_subscriber_, &detected_pose_subscriber_, &grasp_subscriber_,
+                           &twist_subscriber_}) {
     subscriber->shutdown();
   }
   services_.reset();
+  live_.reset();
+  save_timer_.stop();
   if (worker_) worker_->stop();
+  marker_.reset();  // its thread speaks to the worker
+  savePose();
 }
 
 void TrackerNodelet::onInit() {
@@ -55,14 +60,32 @@ void TrackerNodelet::start() {
   TrackerSession session(getName(), image_topic, info_topic, *tf_buffer_);
   const BuiltTracker built = buildFromParameters(options);
   session.setTracker(built);
+  if (!options.last_pose_file.empty()) {
+    pose_memory_ = std::make_unique<PoseMemory>(options.last_pose_file);
+    recallLastPose(built.name, session);
+  }
   if (!options.init_file.empty()) applyInitFile(options.init_file, session);
   worker_ = std::make_unique<TrackerWorker>(getName(), std::move(session), ResultPublisher(private_node, options),
                                             options.control_wait_s);
   diagnostics_ = std::make_unique<TrackerDiagnostics>(getNodeHandle(), private_node, getName(), image_topic);
-  worker_->setDiagnosticSink([this](const DiagnosticSnapshot& snapshot) { diagnostics_->setSnapshot(snapshot); });
+  if (options.interactive_marker) {
+    marker_ = std::make_unique<InitialPoseMarker>(getName(), [this](const geometry_msgs::PoseStamped& pose) {
+      geometry_msgs::PoseWithCovarianceStamped message;
+      message.header = pose.header;
+      message.pose.pose = pose.pose;
+      startAt(message, "the pose of ~initial_pose_marker");
+    });
+  }
+  worker_->setObserver(
+      [this](const DiagnosticSnapshot& snapshot, const TrackerSession& current) { observe(snapshot, current); });
   services_ = std::make_unique<TrackerServices>(private_node, *worker_, *tf_buffer_);
+  if (marker_) services_->offerMarker(*marker_);
   services_->setLoadedCallback([this](const TrackerConfig& config) { offerLiveParameters(config); });
   worker_->start();
+  if (pose_memory_) {
+    save_timer_ =
+        private_node.createWallTimer(ros::WallDuration(2.0), [this](const ros::WallTimerEvent&) { savePose(); });
+  }
   if (built.tracker) offerLiveParameters(built.config);
   subscribeCommands();
   subscribe(image_topic, info_topic, options.image_transport);
@@ -99,6 +122,31 @@ void TrackerNodelet::offerLiveParameters(const TrackerConfig& config) {
   });
 }
 
+void TrackerNodelet::observe(const DiagnosticSnapshot& snapshot, const TrackerSession& session) {
+  diagnostics_->setSnapshot(snapshot);
+  if (marker_) marker_->update(session.object(), session.lastResult(), session.cameraFrame());
+  if (pose_memory_) pose_memory_->note(session.lastResult(), session.object().name);
+}
+
+/// Starts where the object was last time; ~init_file, where given, comes after and wins.
+void TrackerNodelet::recallLastPose(const std::string& object_name, TrackerSession& session) {
+  const std::string file = getPrivateNodeHandle().param<std::string>("last_pose_file", "");
+  std::string problem;
+  InitialPose pose;
+  const auto recalled = recallPose(file, object_name, problem);
+  if (!problem.empty()) session.refuseInitialPose(problem);
+  if (!recalled) return;
+  pose.T_frame_object = *recalled;
+  session.initialise(pose, nullptr);
+  NODELET_INFO_STREAM(getName() << ": starting from the last pose of '" << object_name << "' in " << file);
+}
+
+void TrackerNodelet::savePose() {
+  if (!pose_memory_) return;
+  const std::string problem = pose_memory_->save();
+  if (!problem.empty()) NODELET_ERROR_STREAM_THROTTLE(60.0, getName() << ": " << problem);
+}
+
 void TrackerNodelet::applyInitFile(const std::string& init_file, TrackerSession& session) {
   const InitFilePose loaded = loadInitFile(init_file);
   if (!loaded.problem.empty()) {
@@ -122,6 +170,8 @@ std::string TrackerNodelet::findInfoTopic(const std::string& image_topic) {
 void TrackerNodelet::subscribeCommands() {
   ros::NodeHandle& node = getNodeHandle();
   initial_pose_subscriber_ = getPrivateNodeHandle().subscribe("initial_pose", 1, &TrackerNodelet::onInitialPose, this);
+  detected_pose_subscriber_ =
+      getPrivateNodeHandle().subscribe("detected_pose", 1, &TrackerNodelet::onDetectedPose, this);
   grasp_subscriber_ = node.subscribe(siblingName(getName(), "grasp"), 10, &TrackerNodelet::onGrasp, this);
   twist_subscriber_ = node.subscribe<geometry_msgs::TwistStamped>(
       siblingName(getName(), "control_twist"), 100,
@@ -153,14 +203,36 @@ void TrackerNodelet::subscribe(const std::string& image_topic, const std::string
 }
 
 void TrackerNodelet::onInitialPose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message) {
-  const CheckedInitialPose checked = checkInitialPose(*message);
-  worker_->post([checked](TrackerSession& session) {
+  startAt(*message, "~initial_pose");
+}
+
+void TrackerNodelet::startAt(const geometry_msgs::PoseWithCovarianceStamped& message, const std::string& source) {
+  const CheckedInitialPose checked = checkInitialPose(message);
+  worker_->post([checked, source](TrackerSession& session) {
     if (checked.problem.empty()) {
       session.initialise(checked.pose, nullptr);
     } else {
-      session.refuseInitialPose("~initial_pose refused: " + checked.problem);
+      session.refuseInitialPose(source + " refused: " + checked.problem);
     }
   });
+}
+
+/// A detector goes on publishing: only a tracker that has nothing to lose listens.
+void TrackerNodelet::onDetectedPose(const geometry_msgs::PoseStampedConstPtr& message) {
+  geometry_msgs::PoseWithCovarianceStamped pose;
+  pose.header = message->header;
+  pose.pose.pose = message->pose;
+  const CheckedInitialPose checked = checkInitialPose(pose);
+  worker_->post(
+      [checked](TrackerSession& session) {
+        if (!session.needsPose()) return;
+        if (checked.problem.empty()) {
+          session.initialise(checked.pose, nullptr);
+        } else {
+          session.refuseInitialPose("~detected_pose refused: " + checked.problem);
+        }
+      },
+      false);
 }
 
 void TrackerNodelet::onGrasp(const GraspConstPtr& message) {

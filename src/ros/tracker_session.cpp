@@ -53,6 +53,11 @@ void TrackerSession::initialise(const InitialPose& pose, InitialisationCallback 
   initial_pose_problem_.clear();
 }
 
+bool TrackerSession::needsPose() const {
+  const bool has_none = last_result_.state == TrackerState::kUninitialized || last_result_.state == TrackerState::kLost;
+  return has_none && !pending_pose_;
+}
+
 void TrackerSession::refuseInitialPose(const std::string& problem) {
   log_.error(problem);
   initial_pose_problem_ = problem;

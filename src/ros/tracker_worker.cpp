@@ -128,13 +128,13 @@ void TrackerWorker::publishStatus(const TrackerResult& result) {
   context.grasped = session_.grasped();
   const TrackerStatus status = buildStatus(result, context, statistics_, inbox_.counters());
   publisher_.publishStatus(status);
-  tellDiagnostics(status);
+  tellObserver(status);
   last_status_at_ = Clock::now();
   announce_ = false;
 }
 
-void TrackerWorker::tellDiagnostics(const TrackerStatus& status) const {
-  if (!diagnostic_sink_) return;
+void TrackerWorker::tellObserver(const TrackerStatus& status) const {
+  if (!observer_) return;
   DiagnosticSnapshot snapshot;
   snapshot.status = status;
   snapshot.seconds_without_image = secondsSince(last_image_at_);
@@ -142,7 +142,7 @@ void TrackerWorker::tellDiagnostics(const TrackerStatus& status) const {
   snapshot.dropped_share = drop_watch_.droppedShare();
   snapshot.findings = session_.findings();
   snapshot.frame_note = session_.missingParent();
-  diagnostic_sink_(snapshot);
+  observer_(snapshot, session_);
 }
 
 }  // namespace depth_object_tracker

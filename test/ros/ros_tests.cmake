@@ -29,6 +29,7 @@ endfunction()
 
 find_program(ROSTEST_PROGRAM rostest)
 if(ROSTEST_PROGRAM)
+  add_ros_test(initial_pose_rostest ros/initial_pose_rostest.cpp)
   add_ros_test(live_reconfigure_rostest ros/live_reconfigure_rostest.cpp)
   add_ros_test(tracker_bad_input_rostest ros/tracker_bad_input_rostest.cpp)
   add_ros_test(tracker_bad_start_rostest ros/tracker_bad_start_rostest.cpp)

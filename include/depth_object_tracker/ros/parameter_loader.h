@@ -33,7 +33,9 @@ struct ObjectSource {
 
 struct NodeletOptions {
   ObjectSource object;
-  std::string init_file;  ///< JSON pose at start; empty = wait to be told
+  std::string init_file;           ///< JSON pose at start; empty = wait to be told
+  std::string last_pose_file;      ///< the last good pose is kept there and taken up again; empty = not
+  bool interactive_marker = true;  ///< the mesh in rviz, to be dragged to the object
   std::string image_transport = "raw";
   bool robot = false;  ///< joint states move the object while it is held (not available yet)
   bool publish_tf = true;

@@ -3,11 +3,14 @@
 #pragma once
 
 #include "depth_object_tracker/ros/camera_info_matcher.h"
+#include "depth_object_tracker/ros/initial_pose_marker.h"
 #include "depth_object_tracker/ros/live_reconfigure.h"
+#include "depth_object_tracker/ros/pose_memory.h"
 #include "depth_object_tracker/ros/tracker_diagnostics.h"
 #include "depth_object_tracker/ros/tracker_services.h"
 #include "depth_object_tracker/ros/tracker_worker.h"
 
+#include <geometry_msgs/PoseStamped.h>
 #include <image_transport/image_transport.h>
 #include <nodelet/nodelet.h>
 #include <tf2_ros/buffer.h>
@@ -32,6 +35,11 @@ class TrackerNodelet : public nodelet::Nodelet {
   void subscribeCommands();
   std::string findInfoTopic(const std::string& image_topic);
   void offerLiveParameters(const TrackerConfig& config);
+  void observe(const DiagnosticSnapshot& snapshot, const TrackerSession& session);
+  void recallLastPose(const std::string& object_name, TrackerSession& session);
+  void savePose();
+  void startAt(const geometry_msgs::PoseWithCovarianceStamped& message, const std::string& source);
+  void onDetectedPose(const geometry_msgs::PoseStampedConstPtr& message);
   void onInitialPose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message);
   void onGrasp(const GraspConstPtr& message);
 
@@ -39,13 +47,17 @@ class TrackerNodelet : public nodelet::Nodelet {
   std::unique_ptr<tf2_ros::Buffer> tf_buffer_;
   std::unique_ptr<tf2_ros::TransformListener> tf_listener_;
   std::unique_ptr<TrackerDiagnostics> diagnostics_;
+  std::unique_ptr<InitialPoseMarker> marker_;  // null when it is switched off
+  std::unique_ptr<PoseMemory> pose_memory_;    // null when it is switched off
+  ros::WallTimer save_timer_;
   std::unique_ptr<TrackerWorker> worker_;
   std::mutex live_mutex_;  // guards the creation of live_
   std::unique_ptr<LiveReconfigure> live_;
   std::unique_ptr<TrackerServices> services_;
   std::optional<CameraInfoMatcher> matcher_;
   image_transport::Subscriber image_subscriber_;
-  ros::Subscriber info_subscriber_, initial_pose_subscriber_, grasp_subscriber_, twist_subscriber_;
+  ros::Subscriber info_subscriber_, initial_pose_subscriber_, detected_pose_subscriber_, grasp_subscriber_,
+      twist_subscriber_;
 };
 
 }  // namespace depth_object_tracker

@@ -2,6 +2,7 @@
 // The tracker's services, on threads of their own: one that waits holds up neither images nor other nodelets.
 #pragma once
 
+#include "depth_object_tracker/ros/initial_pose_marker.h"
 #include "depth_object_tracker/ros/tracker_worker.h"
 
 #include <depth_object_tracker/InitializeTracker.h>
@@ -30,6 +31,9 @@ class TrackerServices {
   using LoadedCallback = std::function<void(const TrackerConfig&)>;
   void setLoadedCallback(LoadedCallback callback);
 
+  /// Adds ~initialize_at_marker. @param marker outlives this object.
+  void offerMarker(const InitialPoseMarker& marker);
+
   /// Ends waiting calls. The worker must still be there.
   ~TrackerServices();
 
@@ -40,6 +44,7 @@ class TrackerServices {
   bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
 
+  bool initializeAtMarker(std_srvs::Trigger::Response& response);
   std::string findObstacle(const InitialPose& pose) const;
   InitialisationOutcome initialiseAndWait(const InitialPose& pose, double timeout_s);
   ObjectSource sourceFor(const LoadObject::Request& request) const;
@@ -47,6 +52,7 @@ class TrackerServices {
   ros::NodeHandle node_;
   TrackerWorker& worker_;
   const tf2::BufferCore& tf_;
+  const InitialPoseMarker* marker_ = nullptr;
   ros::CallbackQueue queue_;
   ros::AsyncSpinner spinner_;
   std::vector<ros::ServiceServer> servers_;

@@ -57,6 +57,9 @@ class TrackerSession {
   /// be empty.
   void initialise(const InitialPose& pose, InitialisationCallback callback);
 
+  /// True while UNINITIALIZED or LOST with no initial pose under way: a detector's pose is then welcome.
+  bool needsPose() const;
+
   /// Says in log and status why a wished pose was refused; what is tracked goes on.
   void refuseInitialPose(const std::string& problem);
   void reset();
@@ -76,6 +79,7 @@ class TrackerSession {
   /// Ends everybody's waiting, with this message.
   void abandon(const std::string& message);
 
+  const TrackerResult& lastResult() const { return last_result_; }
   const BuiltTracker& object() const { return object_; }
   bool paused() const { return paused_; }
   bool grasped() const { return held_motion_.isGrasped(); }

@@ -22,9 +22,9 @@ class TrackerWorker {
   TrackerWorker(const std::string& name, TrackerSession session, ResultPublisher publisher, double control_wait_s);
   ~TrackerWorker();
 
-  /// Who is told what goes into the diagnostics, on the worker's thread. Before start().
-  using DiagnosticSink = std::function<void(const DiagnosticSnapshot&)>;
-  void setDiagnosticSink(DiagnosticSink sink) { diagnostic_sink_ = std::move(sink); }
+  /// Who looks on after each status, on the worker's thread. Before start().
+  using Observer = std::function<void(const DiagnosticSnapshot&, const TrackerSession&)>;
+  void setObserver(Observer observer) { observer_ = std::move(observer); }
 
   void start();
 
@@ -49,7 +49,7 @@ class TrackerWorker {
   void waitForTwist(const CameraFrame& frame);
   void reportIdle();
   void watchStamp(const ros::Time& stamp);
-  void tellDiagnostics(const TrackerStatus& status) const;
+  void tellObserver(const TrackerStatus& status) const;
   void publishStatus(const TrackerResult& result);
 
   ThrottledLog log_;
@@ -59,7 +59,7 @@ class TrackerWorker {
   FrameInbox inbox_;
   FrameStatistics statistics_;
   DropWatch drop_watch_;
-  DiagnosticSink diagnostic_sink_;
+  Observer observer_;
   std::optional<double> stamp_age_s_;
   bool stamp_problem_told_ = false;
   Clock::time_point last_image_at_ = Clock::now();
