@@ -45,5 +45,8 @@ add_dependencies(depth_object_tracker_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${
 add_library(depth_object_tracker_nodelets SHARED src/ros/tracker_plugin.cpp)
 target_link_libraries(depth_object_tracker_nodelets PRIVATE depth_object_tracker_ros depth_object_tracker_warnings)
 
+add_executable(pose_marker src/ros/pose_marker_node.cpp)
+target_link_libraries(pose_marker PRIVATE depth_object_tracker_ros depth_object_tracker_warnings)
+
 add_executable(tracker_node src/ros/tracker_node.cpp)
 target_link_libraries(tracker_node PRIVATE depth_object_tracker_ros depth_object_tracker_warnings)
