@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kMarkerName = "object";
 constexpr double kStartDistanceM = 0.7;          // within reach of every depth camera
 constexpr std::chrono::seconds kLostForGood{2};  // a short loss mends itself
-constexpr float kScalePerDiameter = 1.4f;
+constexpr float kScalePerDiameter = 1.1f;
 
 Pose startPose() {
   Pose T_camera_object = Pose::Identity();
@@ -46,7 +46,7 @@ void addMesh(const BuiltTracker& object, visualization_msgs::InteractiveMarker& 
   control.orientation_mode = visualization_msgs::InteractiveMarkerControl::VIEW_FACING;
   control.independent_marker_orientation = true;
   control.orientation.w = 1.0;
-  control.markers.push_back(builder.ghost(0.35f, 0.65f, 1.0f, 0.75f));
+  control.markers.push_back(builder.ghost(0.6f, 0.85f, 1.0f, 0.8f));
   marker.controls.push_back(control);
 }
 
@@ -104,7 +104,7 @@ visualization_msgs::InteractiveMarker InitialPoseMarker::makeMarker(const std::s
   visualization_msgs::InteractiveMarker marker;
   marker.header.frame_id = camera_frame;
   marker.name = kMarkerName;
-  marker.description = "Drag to the object, right click: Track here";
+  marker.description = "drag me, right click";
   marker.pose = toPoseMessage(T_camera_object_);
   marker.scale = kScalePerDiameter * static_cast<float>(object_.tracker->diameterM());
   addMesh(object_, marker);

@@ -23,13 +23,13 @@ std_msgs::ColorRGBA makeColor(float red, float green, float blue, float alpha) {
 std_msgs::ColorRGBA colorOf(TrackerState state) {
   switch (state) {
     case TrackerState::kTracking:
-      return makeColor(0.2f, 0.85f, 0.35f, 0.9f);
+      return makeColor(0.4f, 1.0f, 0.5f, 0.65f);
     case TrackerState::kInitializing:
-      return makeColor(0.27f, 0.55f, 0.95f, 0.7f);
+      return makeColor(0.5f, 0.75f, 1.0f, 0.7f);
     case TrackerState::kOccluded:
-      return makeColor(0.95f, 0.72f, 0.12f, 0.6f);
+      return makeColor(1.0f, 0.8f, 0.2f, 0.6f);
     default:
-      return makeColor(0.9f, 0.2f, 0.18f, 0.35f);
+      return makeColor(1.0f, 0.3f, 0.25f, 0.4f);
   }
 }
 

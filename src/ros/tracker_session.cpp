@@ -15,6 +15,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kTransformTimeout{1};  // tf may come a little after the image
 constexpr double kImageOutageS = 1.0;
+constexpr const char* kNoInitialPose =
+    "no initial pose; drag the mesh in rviz to the object, call ~initialize, publish on ~initial_pose or set "
+    "~init_file";
 constexpr double kGivenPoseReachS = 0.5;  // an initial pose holds for images about this near to its own
 
 std::string withoutSlash(const std::string& frame) {
@@ -211,6 +214,8 @@ void TrackerSession::explainByFindings(TrackerResult& result) {
   } else if (const auto findings = self_check_.findings();
              !findings.empty() && result.input != TrackerResult::Input::kNoValidDepth) {
     result.reason = findings.front();
+  } else if (result.state == TrackerState::kUninitialized) {
+    result.reason = kNoInitialPose;
   }
 }
 
@@ -293,7 +298,7 @@ TrackerResult TrackerSession::idleResult(double seconds_without_image) const {
   } else if (paused_) {
     result.reason = "paused; call ~pause with data: false to go on";
   } else if (result.state == TrackerState::kUninitialized && !pending_pose_) {
-    result.reason = "no initial pose; call ~initialize, publish on ~initial_pose or set ~init_file";
+    result.reason = kNoInitialPose;
   }
   return result;
 }

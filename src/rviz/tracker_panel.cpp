@@ -64,6 +64,8 @@ TrackerPanel::TrackerPanel(QWidget* parent) : rviz::Panel(parent) {
   answer_label_ = new QLabel(this);
   answer_label_->setObjectName("answer");
   answer_label_->setWordWrap(true);
+  answer_label_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+  answer_label_->setMinimumHeight(2 * fontMetrics().lineSpacing());
   layout->addWidget(answer_label_);
   layout->addWidget(makePlots(), 1);
   connect(&timer_, &QTimer::timeout, this, [this] {
@@ -103,7 +105,7 @@ QWidget* TrackerPanel::makeHead() {
   reason_->setObjectName("reason");
   reason_->setWordWrap(true);
   reason_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
-  reason_->setMinimumHeight(3 * fontMetrics().lineSpacing());  // so that nothing below jumps
+  reason_->setMinimumHeight(3 * fontMetrics().lineSpacing() + 4);  // so that nothing below jumps
   layout->addLayout(line);
   layout->addWidget(reason_);
   return head;
