@@ -38,6 +38,7 @@ add_library(depth_object_tracker_core SHARED
   src/tracker/frame_clock.cpp
   src/tracker/input_check.cpp
   src/tracker/live_parameters.cpp
+  src/tracker/nearest_name.cpp
   src/tracker/object_model.cpp
   src/tracker/object_tracker.cpp
   src/tracker/parameter_binding.cpp

@@ -48,6 +48,7 @@ void TrackerNodelet::onInit() {
 void TrackerNodelet::start() {
   ros::NodeHandle& private_node = getPrivateNodeHandle();
   const NodeletOptions options = loadNodeletOptions(private_node);
+  for (const std::string& warning : options.warnings) NODELET_WARN_STREAM(getName() << ": " << warning);
   if (options.robot) {
     NODELET_WARN_STREAM(
         getName() << ": ~robot: joint states are not used yet; publish the held object's twist on control_twist");

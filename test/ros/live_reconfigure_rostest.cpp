@@ -76,8 +76,10 @@ TEST(LiveReconfigure, OffersExactlyTheLiveParametersWithTheirDefaults) {
 TEST(LiveReconfigure, SetsEachOfARunningTracker) {
   setGoodParameters(kName);
   ros::param::set(std::string(kName) + "/tracker/tracker/lost_after_s", 0.7);  // as a file has it
+  ros::param::set(std::string(kName) + "/mesh_scael", 0.001);
   TrackerHarness tracker(kName);
   ASSERT_TRUE(tracker.isReady());
+  EXPECT_TRUE(tracker.waitForLog({"/tracker_live/mesh_scael", "nearest known one is '/tracker_live/mesh_scale'"}));
   ASSERT_TRUE(ros::service::waitForService(std::string(kName) + "/tracker/set_parameters", 20000));
   double value = 0.0;
   const auto hasStartValue = [&] {

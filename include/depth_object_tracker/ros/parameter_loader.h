@@ -43,6 +43,7 @@ struct NodeletOptions {
   bool publish_debug = false;             ///< ~debug/last_image_address
   double control_wait_s = 0.02;           ///< longest wait for the control twist that belongs to an image
   std::vector<std::string> problems;      ///< as in TrackerParameters
+  std::vector<std::string> warnings;      ///< parameters that nobody reads, with the nearest that somebody does
 };
 
 NodeletOptions loadNodeletOptions(const ros::NodeHandle& private_node);
