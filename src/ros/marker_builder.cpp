@@ -33,10 +33,11 @@ std_msgs::ColorRGBA colorOf(TrackerState state) {
   }
 }
 
+/// rviz lights the side from which the corners go clockwise; meshes go counter-clockwise seen from outside.
 void addTriangles(const TriangleMesh& mesh, visualization_msgs::Marker& marker) {
   marker.points.reserve(3 * mesh.triangles.size());
   for (const auto& triangle : mesh.triangles) {
-    for (const std::uint32_t index : triangle) {
+    for (const std::uint32_t index : {triangle[0], triangle[2], triangle[1]}) {
       geometry_msgs::Point point;
       point.x = mesh.vertices[index].x();
       point.y = mesh.vertices[index].y();
