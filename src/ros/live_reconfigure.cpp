@@ -7,8 +7,11 @@
 #include <dynamic_reconfigure/config_tools.h>
 #include <ros/console.h>
 
+#include <sstream>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <variant>
 
 namespace depth_object_tracker {
 namespace {
@@ -58,9 +61,21 @@ LiveReconfigure::LiveReconfigure(const ros::NodeHandle& private_node, const Trac
   server_->setCallback([this](TrackerLiveConfig& live, std::uint32_t) { onChange(live); });
 }
 
+void LiveReconfigure::logChange(const std::string& name, const TrackerConfig& before,
+                                const TrackerConfig& after) const {
+  const ParameterValue old_value = getTrackerParameter(before, name), value = getTrackerParameter(after, name);
+  if (old_value == value) return;
+  std::ostringstream text;
+  std::visit([&](const auto& held) { text << name << ": " << held; }, old_value);
+  std::visit([&](const auto& held) { text << " -> " << held; }, value);
+  ROS_INFO_STREAM(node_.getNamespace() << ": " << text.str());
+}
+
 void LiveReconfigure::onChange(const TrackerLiveConfig& live) {
   try {
-    config_ = fromLiveConfig(live, config_);
+    const TrackerConfig changed = fromLiveConfig(live, config_);
+    for (const std::string& name : listLiveParameters()) logChange(name, config_, changed);
+    config_ = changed;
     callback_(config_);
   } catch (const std::exception& error) {
     ROS_ERROR_STREAM(node_.getNamespace() << ": refused: " << error.what());

@@ -114,6 +114,7 @@ NodeletOptions loadNodeletOptions(const ros::NodeHandle& private_node) {
   read("image_transport", "the name of an image transport", options.image_transport);
   read("robot", "true or false", options.robot);
   read("publish_tf", "true or false", options.publish_tf);
+  read("publish_diagnostics", "true or false", options.publish_diagnostics);
   read("marker_use_mesh_resource", "true or false", options.marker_use_mesh_resource);
   read("publish_debug", "true or false", options.publish_debug);
   read("control_wait_s", "a number (seconds)", options.control_wait_s);

@@ -68,7 +68,8 @@ void TrackerNodelet::start() {
   if (!options.init_file.empty()) applyInitFile(options.init_file, session);
   worker_ = std::make_unique<TrackerWorker>(getName(), std::move(session), ResultPublisher(private_node, options),
                                             options.control_wait_s);
-  diagnostics_ = std::make_unique<TrackerDiagnostics>(getNodeHandle(), private_node, getName(), image_topic);
+  if (options.publish_diagnostics)
+    diagnostics_ = std::make_unique<TrackerDiagnostics>(getNodeHandle(), private_node, getName(), image_topic);
   if (options.interactive_marker) {
     marker_ = std::make_unique<InitialPoseMarker>(getName(), [this](const geometry_msgs::PoseStamped& pose) {
       geometry_msgs::PoseWithCovarianceStamped message;
@@ -124,7 +125,7 @@ void TrackerNodelet::offerLiveParameters(const TrackerConfig& config) {
 }
 
 void TrackerNodelet::observe(const DiagnosticSnapshot& snapshot, const TrackerSession& session) {
-  diagnostics_->setSnapshot(snapshot);
+  if (diagnostics_) diagnostics_->setSnapshot(snapshot);
   if (marker_) marker_->update(session.object(), session.lastResult(), session.cameraFrame());
   if (pose_memory_) pose_memory_->note(session.lastResult(), session.object().name);
 }

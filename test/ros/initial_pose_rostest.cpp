@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "rostest_main.h"
+#include "temporary_folder.h"
 #include "tracker_harness.h"
 
 #include <geometry_msgs/PoseStamped.h>
@@ -11,7 +12,6 @@
 #include <visualization_msgs/InteractiveMarkerInit.h>
 #include <visualization_msgs/InteractiveMarkerUpdate.h>
 
-#include <cstdio>
 #include <memory>
 
 namespace depth_object_tracker {
@@ -141,8 +141,8 @@ TEST(DetectedPose, IsTakenOnlyWhenThereIsNothingToLose) {
 }
 
 TEST(LastPose, IsTakenUpNextTime) {
-  const std::string name = "/tracker_memory", file = "/tmp/depth_object_tracker_last_pose_test/pose.json";
-  std::remove(file.c_str());
+  const TemporaryFolder folder;
+  const std::string name = "/tracker_memory", file = (folder.path() / "sub" / "pose.json").string();
   setGoodParameters(name);
   ros::param::set(name + "/last_pose_file", file);
   {
@@ -161,7 +161,6 @@ TEST(LastPose, IsTakenUpNextTime) {
   TrackerHarness tracker(name);
   ASSERT_TRUE(tracker.isReady());
   EXPECT_TRUE(tracker.waitForReason("no initial pose")) << "the pose was that of another object";
-  std::remove(file.c_str());
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <depth_object_tracker/LoadObject.h>
 #include <dynamic_reconfigure/Reconfigure.h>
 
+#include <algorithm>
 #include <set>
 
 namespace depth_object_tracker {
@@ -47,6 +48,12 @@ dynamic_reconfigure::Config set(const std::string& name, double value) {
   return call.response.config;
 }
 
+bool hasLogged(const Recorder<rosgraph_msgs::Log>& logs, const std::string& part) {
+  const auto messages = logs.messages();
+  return std::any_of(messages.begin(), messages.end(),
+                     [&](const auto& log) { return log->msg.find(part) != std::string::npos; });
+}
+
 double valueIn(const dynamic_reconfigure::Config& config, const std::string& name) {
   for (const auto& entry : config.ints) {
     if (entry.name == name) return entry.value;
@@ -77,6 +84,7 @@ TEST(LiveReconfigure, SetsEachOfARunningTracker) {
   setGoodParameters(kName);
   ros::param::set(std::string(kName) + "/tracker/tracker/lost_after_s", 0.7);  // as a file has it
   ros::param::set(std::string(kName) + "/mesh_scael", 0.001);
+  Recorder<rosgraph_msgs::Log> logs(ros::NodeHandle(), "/rosout");
   TrackerHarness tracker(kName);
   ASSERT_TRUE(tracker.isReady());
   EXPECT_TRUE(tracker.waitForLog({"/tracker_live/mesh_scael", "nearest known one is '/tracker_live/mesh_scale'"}));
@@ -99,6 +107,7 @@ TEST(LiveReconfigure, SetsEachOfARunningTracker) {
     EXPECT_TRUE(ros::param::get(std::string(kName) + "/tracker/" + name, value)) << name;
     EXPECT_EQ(value, legal) << name;
   }
+  EXPECT_TRUE(waitUntil([&] { return hasLogged(logs, "num_particles: 40 -> 55"); }, 10.0));
   const auto has55 = [&] { return tracker.step().num_particles == 55u; };
   EXPECT_TRUE(waitUntil(has55, 10.0));
 

@@ -9,6 +9,8 @@
 #include <ros/node_handle.h>
 
 #include <functional>
+#include <memory>
+#include <string>
 
 namespace depth_object_tracker {
 
@@ -27,6 +29,7 @@ class LiveReconfigure {
   LiveReconfigure(const ros::NodeHandle& private_node, const TrackerConfig& config, Callback callback);
 
  private:
+  void logChange(const std::string& name, const TrackerConfig& before, const TrackerConfig& after) const;
   void onChange(const TrackerLiveConfig& live);
 
   TrackerConfig config_;

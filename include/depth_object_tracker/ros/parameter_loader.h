@@ -39,6 +39,7 @@ struct NodeletOptions {
   std::string image_transport = "raw";
   bool robot = false;  ///< joint states move the object while it is held (not available yet)
   bool publish_tf = true;
+  bool publish_diagnostics = true;
   bool marker_use_mesh_resource = false;  ///< rviz loads the mesh file itself, instead of a triangle list
   bool publish_debug = false;             ///< ~debug/last_image_address
   double control_wait_s = 0.02;           ///< longest wait for the control twist that belongs to an image

@@ -46,9 +46,9 @@ class TrackerNodelet : public nodelet::Nodelet {
   // In the order of dependence: what is below uses what is above, and goes first.
   std::unique_ptr<tf2_ros::Buffer> tf_buffer_;
   std::unique_ptr<tf2_ros::TransformListener> tf_listener_;
-  std::unique_ptr<TrackerDiagnostics> diagnostics_;
-  std::unique_ptr<InitialPoseMarker> marker_;  // null when it is switched off
-  std::unique_ptr<PoseMemory> pose_memory_;    // null when it is switched off
+  std::unique_ptr<TrackerDiagnostics> diagnostics_;  // null when they are switched off
+  std::unique_ptr<InitialPoseMarker> marker_;        // null when it is switched off
+  std::unique_ptr<PoseMemory> pose_memory_;          // null when it is switched off
   ros::WallTimer save_timer_;
   std::unique_ptr<TrackerWorker> worker_;
   std::mutex live_mutex_;  // guards the creation of live_
