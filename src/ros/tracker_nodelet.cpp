@@ -2,12 +2,30 @@
 #include "depth_object_tracker/ros/tracker_nodelet.h"
 
 #include <image_transport/camera_common.h>
+#include <ros/master.h>
 
 #include <exception>
 #include <utility>
 
 namespace depth_object_tracker {
 namespace {
+
+constexpr std::uint64_t kImagesUntilTfIsThere = 60;  // static transforms may come a little later than images
+
+constexpr double kSilenceUntilTopicsAreListedS = 3.0;
+
+/// Topics that may be meant when no image comes. Asks the master, which takes a moment.
+std::string listDepthTopics() {
+  ros::master::V_TopicInfo topics;
+  ros::master::getTopics(topics);
+  std::string names;
+  for (const auto& topic : topics) {
+    const bool is_depth = topic.datatype == "sensor_msgs/Image" && topic.name.find("depth") != std::string::npos;
+    if (is_depth) names += (names.empty() ? "" : ", ") + topic.name;
+  }
+  return names.empty() ? "nobody publishes an image topic with 'depth' in its name"
+                       : "depth images there are: " + names;
+}
 
 std::string join(const std::vector<std::string>& sentences) {
   std::string text;
@@ -126,6 +144,13 @@ void TrackerNodelet::offerLiveParameters(const TrackerConfig& config) {
 
 void TrackerNodelet::observe(const DiagnosticSnapshot& snapshot, const TrackerSession& session) {
   if (diagnostics_) diagnostics_->setSnapshot(snapshot);
+  const bool is_silent = snapshot.seconds_without_image > kSilenceUntilTopicsAreListedS && !snapshot.status.paused;
+  if (is_silent && !topics_told_) NODELET_WARN_STREAM(getName() << ": " << listDepthTopics());
+  topics_told_ = is_silent;
+  if (!frame_note_told_ && !snapshot.frame_note.empty() && snapshot.status.frames_received > kImagesUntilTfIsThere) {
+    frame_note_told_ = true;
+    NODELET_INFO_STREAM(getName() << ": " << snapshot.frame_note);
+  }
   if (marker_) marker_->update(session.object(), session.lastResult(), session.cameraFrame());
   if (pose_memory_) pose_memory_->note(session.lastResult(), session.object().name);
 }

@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kTransformTimeout{1};  // tf may come a little after the image
 constexpr double kImageOutageS = 1.0;
-constexpr const char* kNoInitialPose =
+const std::string kNoInitialPose =
     "no initial pose; drag the mesh in rviz to the object, call ~initialize, publish on ~initial_pose or set "
     "~init_file";
 constexpr double kGivenPoseReachS = 0.5;  // an initial pose holds for images about this near to its own
@@ -205,17 +205,21 @@ void TrackerSession::runTracker(FrameOutcome& outcome) {
   answerWaiting(outcome);
 }
 
-/// What was found wrong with the set-up is a better reason than what follows from it.
+/// What was found wrong with the set-up is a better reason than what follows from it. A hidden object has its own.
 void TrackerSession::explainByFindings(TrackerResult& result) {
   if (result.state == TrackerState::kTracking) {
     self_check_.forgetPose();
-  } else if (!initial_pose_problem_.empty()) {
+    return;
+  }
+  if (!initial_pose_problem_.empty()) {
     result.reason = initial_pose_problem_;
-  } else if (const auto findings = self_check_.findings();
-             !findings.empty() && result.input != TrackerResult::Input::kNoValidDepth) {
+    return;
+  }
+  const std::vector<std::string> findings = self_check_.findings();
+  if (result.state == TrackerState::kUninitialized) {
+    result.reason = kNoInitialPose + (findings.empty() ? "" : ". Besides: " + findings.front());
+  } else if (!findings.empty() && result.state != TrackerState::kOccluded) {
     result.reason = findings.front();
-  } else if (result.state == TrackerState::kUninitialized) {
-    result.reason = kNoInitialPose;
   }
 }
 

@@ -55,7 +55,13 @@ TEST(TrackerDiagnosticsTopic, FollowsWhatHappens) {
   // The stamps of this test are made up, far in the past.
   EXPECT_TRUE(diagnostics.waitFor("input", Level::WARN, "behind the clock", step));
   EXPECT_TRUE(tracker.waitForLog({"behind the clock", "use_sim_time"}));
+  EXPECT_TRUE(waitUntil([&] {
+    tracker.step();
+    return tracker.hasLogged({"tf knows no parent", "camera_depth_optical_frame"});
+  }));
   EXPECT_TRUE(diagnostics.waitFor("input", Level::ERROR, "no image for", [] {}));
+
+  EXPECT_TRUE(tracker.waitForLog({"depth images there are", "/camera/depth/image_raw"}));
 
   PinholeCamera other = testCamera();
   other.cx += 60.0;

@@ -300,6 +300,23 @@ TEST_F(TrackerSessionSelfCheck, PoseWhereNothingIs) {
   EXPECT_TRUE(session_.findings().empty()) << session_.findings().front();
 }
 
+TEST_F(TrackerSessionSelfCheck, AHiddenObjectIsToldAsHidden) {
+  const auto info = makeCameraInfo(testCamera());
+  info->header.frame_id = "other_camera";  // suspicious, but good enough
+  initialise(testPose());
+  const auto stepWithImage = [&](const sensor_msgs::ImagePtr& image) {
+    stamp_s_ += kFrameS;
+    image->header.stamp = ros::Time(stamp_s_);
+    return process(image, info);
+  };
+  for (int i = 0; i < 6; ++i) EXPECT_TRUE(stepWithImage(imageAt(testPose())).processed);
+  EXPECT_FALSE(session_.findings().empty());
+  FrameOutcome outcome;
+  for (int i = 0; i < 5; ++i) outcome = stepWithImage(makeUint16Image(std::vector<float>(320 * 240, 0.4f), 320, 240));
+  EXPECT_EQ(outcome.result.state, TrackerState::kOccluded);
+  EXPECT_NE(outcome.result.reason.find("hidden"), std::string::npos) << outcome.result.reason;
+}
+
 TEST_F(TrackerSessionSelfCheck, FramesOfTwoCameras) {
   const auto info = makeCameraInfo(testCamera());
   info->header.frame_id = "other_camera";

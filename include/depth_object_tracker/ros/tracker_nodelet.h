@@ -55,6 +55,7 @@ class TrackerNodelet : public nodelet::Nodelet {
   std::unique_ptr<LiveReconfigure> live_;
   std::unique_ptr<TrackerServices> services_;
   std::optional<CameraInfoMatcher> matcher_;
+  bool frame_note_told_ = false, topics_told_ = false;
   image_transport::Subscriber image_subscriber_;
   ros::Subscriber info_subscriber_, initial_pose_subscriber_, detected_pose_subscriber_, grasp_subscriber_,
       twist_subscriber_;
