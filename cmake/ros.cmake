@@ -26,6 +26,7 @@ add_library(depth_object_tracker_ros SHARED
   src/ros/result_publisher.cpp
   src/ros/self_check.cpp
   src/ros/status_builder.cpp
+  src/ros/status_reason.cpp
   src/ros/tracker_diagnostics.cpp
   src/ros/tracker_nodelet.cpp
   src/ros/tracker_services.cpp

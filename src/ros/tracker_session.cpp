@@ -4,6 +4,7 @@
 #include "depth_object_tracker/ros/image_conversions.h"
 #include "depth_object_tracker/ros/message_conversions.h"
 #include "depth_object_tracker/ros/pose_validation.h"
+#include "depth_object_tracker/ros/status_reason.h"
 
 #include <cmath>
 #include <sstream>
@@ -15,9 +16,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kTransformTimeout{1};  // tf may come a little after the image
 constexpr double kImageOutageS = 1.0;
-const std::string kNoInitialPose =
-    "no initial pose; drag the mesh in rviz to the object, call ~initialize, publish on ~initial_pose or set "
-    "~init_file";
 constexpr double kGivenPoseReachS = 0.5;  // an initial pose holds for images about this near to its own
 
 std::string withoutSlash(const std::string& frame) {
@@ -200,27 +198,10 @@ void TrackerSession::runTracker(FrameOutcome& outcome) {
   reportInput(outcome, is_restored);
   const bool has_state_to_tell = outcome.result.state != TrackerState::kUninitialized && outcome.result.has_pose;
   outcome.is_new_estimate = outcome.processed && has_state_to_tell;
-  explainByFindings(outcome.result);
+  if (outcome.result.state == TrackerState::kTracking) self_check_.forgetPose();
+  explainState(initial_pose_problem_, self_check_.findings(), outcome.result);
   last_result_ = outcome.result;
   answerWaiting(outcome);
-}
-
-/// What was found wrong with the set-up is a better reason than what follows from it. A hidden object has its own.
-void TrackerSession::explainByFindings(TrackerResult& result) {
-  if (result.state == TrackerState::kTracking) {
-    self_check_.forgetPose();
-    return;
-  }
-  if (!initial_pose_problem_.empty()) {
-    result.reason = initial_pose_problem_;
-    return;
-  }
-  const std::vector<std::string> findings = self_check_.findings();
-  if (result.state == TrackerState::kUninitialized) {
-    result.reason = kNoInitialPose + (findings.empty() ? "" : ". Besides: " + findings.front());
-  } else if (!findings.empty() && result.state != TrackerState::kOccluded) {
-    result.reason = findings.front();
-  }
 }
 
 /// Says in the log, and where it explains the state also in the reason, what was wrong with the image.
@@ -302,7 +283,7 @@ TrackerResult TrackerSession::idleResult(double seconds_without_image) const {
   } else if (paused_) {
     result.reason = "paused; call ~pause with data: false to go on";
   } else if (result.state == TrackerState::kUninitialized && !pending_pose_) {
-    result.reason = kNoInitialPose;
+    result.reason = kNoInitialPoseReason;
   }
   return result;
 }

@@ -8,7 +8,8 @@ add_tracker_test(ros_conversions_test
           ros/overlay_test.cpp
   LIBRARIES depth_object_tracker_ros)
 add_tracker_test(ros_inputs_test
-  SOURCES ros/camera_info_matcher_test.cpp ros/frame_inbox_test.cpp ros/parameter_loader_test.cpp ros/tracker_diagnostics_test.cpp
+  SOURCES ros/camera_info_matcher_test.cpp ros/frame_inbox_test.cpp ros/parameter_loader_test.cpp ros/pose_memory_test.cpp
+          ros/tracker_diagnostics_test.cpp
           ros/twist_buffer_test.cpp
   LIBRARIES depth_object_tracker_ros)
 add_tracker_test(tracker_session_test SOURCES ros/tracker_session_test.cpp LIBRARIES depth_object_tracker_ros)

@@ -112,7 +112,6 @@ class TrackerSession {
   bool restoreGivenPose(double stamp_s);
   std::optional<ControlInput> controlFor(double stamp_s);
   void runTracker(FrameOutcome& outcome);
-  void explainByFindings(TrackerResult& result);
   void reportInput(FrameOutcome& outcome, bool is_restored);
   void answerWaiting(const FrameOutcome& outcome);
   TrackerResult refusedResult(const std::string& reason) const;
