@@ -39,6 +39,9 @@ add_library(depth_object_tracker_core SHARED
   src/render/tile_renderer.cpp
   src/tracker/frame_budget.cpp
   src/tracker/frame_clock.cpp
+  src/tracker/input_check.cpp
+  src/tracker/live_parameters.cpp
+  src/tracker/nearest_name.cpp
   src/tracker/object_model.cpp
   src/tracker/object_tracker.cpp
   src/tracker/oriented_points.cpp

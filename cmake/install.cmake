@@ -10,7 +10,10 @@ if(WITH_ROS)
     ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
     LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
     RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
-  install(TARGETS demo_monitor scene_to_bag simulate_scene simulator_node track_sequence tracker_node
+  if(WITH_RVIZ_PANEL)
+    install(TARGETS depth_object_tracker_rviz LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+  endif()
+  install(TARGETS demo_monitor pose_marker scene_to_bag simulate_scene simulator_node track_sequence tracker_node
     RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   catkin_install_python(PROGRAMS scripts/benchmark_sequences scripts/plot_benchmark scripts/play_bag
     DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
@@ -29,6 +32,6 @@ else()
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(PROGRAMS scripts/benchmark_sequences scripts/plot_benchmark DESTINATION ${CMAKE_INSTALL_BINDIR})
-  install(DIRECTORY include/${PROJECT_NAME} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} PATTERN ros EXCLUDE)
+  install(DIRECTORY include/${PROJECT_NAME} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} PATTERN ros EXCLUDE PATTERN rviz EXCLUDE)
   install(DIRECTORY config meshes DESTINATION ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME})
 endif()

@@ -7,20 +7,27 @@ add_library(depth_object_tracker_ros SHARED
   src/robot/twist_buffer.cpp
   src/ros/camera_conversions.cpp
   src/ros/camera_info_matcher.cpp
+  src/ros/drop_watch.cpp
   src/ros/frame_inbox.cpp
   src/ros/held_motion.cpp
   src/ros/image_conversions.cpp
+  src/ros/initial_pose_marker.cpp
   src/ros/initial_pose_resolver.cpp
+  src/ros/live_reconfigure.cpp
   src/ros/marker_builder.cpp
   src/ros/message_conversions.cpp
   src/ros/object_source.cpp
   src/ros/overlay.cpp
   src/ros/parameter_loader.cpp
   src/ros/particle_messages.cpp
+  src/ros/pose_memory.cpp
   src/ros/pose_validation.cpp
   src/ros/rate_meter.cpp
   src/ros/result_publisher.cpp
+  src/ros/self_check.cpp
   src/ros/status_builder.cpp
+  src/ros/status_reason.cpp
+  src/ros/tracker_diagnostics.cpp
   src/ros/tracker_nodelet.cpp
   src/ros/tracker_services.cpp
   src/ros/tracker_session.cpp
@@ -38,6 +45,9 @@ add_dependencies(depth_object_tracker_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${
 # The plugins, apart from the classes so that tests and plain nodes can link those.
 add_library(depth_object_tracker_nodelets SHARED src/ros/tracker_plugin.cpp)
 target_link_libraries(depth_object_tracker_nodelets PRIVATE depth_object_tracker_ros depth_object_tracker_warnings)
+
+add_executable(pose_marker src/ros/pose_marker_node.cpp)
+target_link_libraries(pose_marker PRIVATE depth_object_tracker_ros depth_object_tracker_warnings)
 
 add_executable(tracker_node src/ros/tracker_node.cpp)
 target_link_libraries(tracker_node PRIVATE depth_object_tracker_ros depth_object_tracker_warnings)

@@ -81,6 +81,7 @@ BuiltTracker buildTracker(const ObjectSource& source, const TrackerConfig& confi
     built.mesh_file = std::filesystem::absolute(resolveMeshUri(description.mesh, findPackage)).string();
     built.mesh_scale = description.mesh_scale;
     model.name = built.name;
+    built.config = config;
     built.tracker = std::make_shared<ObjectTracker>(std::move(model), config);
   } catch (const std::exception& error) {
     built.tracker.reset();

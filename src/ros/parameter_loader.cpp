@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/ros/parameter_loader.h"
 
+#include "depth_object_tracker/tracker/nearest_name.h"
 #include "depth_object_tracker/tracker/tracker_parameters.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -71,6 +73,22 @@ void addParameters(XmlRpc::XmlRpcValue& map, const std::string& name, TrackerPar
   }
 }
 
+/// One sentence for each parameter right below the node that is not among `known`. Namespaces are left alone: they may
+/// be a plugin's.
+std::vector<std::string> findUnreadParameters(const ros::NodeHandle& node, const std::vector<std::string>& known) {
+  std::vector<std::string> warnings, all;
+  if (!node.getParamNames(all)) return warnings;
+  const std::string prefix = node.getNamespace() + "/";
+  for (const std::string& name : all) {
+    if (name.compare(0, prefix.size(), prefix) != 0) continue;
+    const std::string key = name.substr(prefix.size());
+    if (key.find('/') != std::string::npos || std::find(known.begin(), known.end(), key) != known.end()) continue;
+    warnings.push_back("parameter '" + name + "' is read by nobody; the nearest known one is '" + prefix +
+                       nearestName(key, known) + "'");
+  }
+  return warnings;
+}
+
 }  // namespace
 
 TrackerParameters loadTrackerParameters(XmlRpc::XmlRpcValue value, const std::string& name) {
@@ -81,7 +99,9 @@ TrackerParameters loadTrackerParameters(XmlRpc::XmlRpcValue value, const std::st
 
 NodeletOptions loadNodeletOptions(const ros::NodeHandle& private_node) {
   NodeletOptions options;
+  std::vector<std::string> known = {"tracker", "diagnostic_period"};  // read elsewhere
   const auto read = [&](const char* key, const char* expected, auto& option) {
+    known.push_back(key);
     readOption(private_node, key, expected, option, options.problems);
   };
   read("object_file", "the path of an object's YAML file", options.object.object_file);
@@ -89,13 +109,17 @@ NodeletOptions loadNodeletOptions(const ros::NodeHandle& private_node) {
   read("mesh", "the path of a mesh", options.object.mesh);
   read("mesh_scale", "a number (metres per unit of the mesh)", options.object.mesh_scale);
   read("init_file", "the path of a JSON file", options.init_file);
+  read("last_pose_file", "the path of a JSON file", options.last_pose_file);
+  read("interactive_marker", "true or false", options.interactive_marker);
   read("image_transport", "the name of an image transport", options.image_transport);
   read("robot", "true or false", options.robot);
   read("publish_tf", "true or false", options.publish_tf);
+  read("publish_diagnostics", "true or false", options.publish_diagnostics);
   read("marker_use_mesh_resource", "true or false", options.marker_use_mesh_resource);
   read("publish_debug", "true or false", options.publish_debug);
   read("control_wait_s", "a number (seconds)", options.control_wait_s);
   checkRange(private_node, "control_wait_s", options.control_wait_s, 1.0, options.problems);
+  options.warnings = findUnreadParameters(private_node, known);
   return options;
 }
 

@@ -2,12 +2,30 @@
 #include "depth_object_tracker/ros/tracker_nodelet.h"
 
 #include <image_transport/camera_common.h>
+#include <ros/master.h>
 
 #include <exception>
 #include <utility>
 
 namespace depth_object_tracker {
 namespace {
+
+constexpr std::uint64_t kImagesUntilTfIsThere = 60;  // static transforms may come a little later than images
+
+constexpr double kSilenceUntilTopicsAreListedS = 3.0;
+
+/// Topics that may be meant when no image comes. Asks the master, which takes a moment.
+std::string listDepthTopics() {
+  ros::master::V_TopicInfo topics;
+  ros::master::getTopics(topics);
+  std::string names;
+  for (const auto& topic : topics) {
+    const bool is_depth = topic.datatype == "sensor_msgs/Image" && topic.name.find("depth") != std::string::npos;
+    if (is_depth) names += (names.empty() ? "" : ", ") + topic.name;
+  }
+  return names.empty() ? "nobody publishes an image topic with 'depth' in its name"
+                       : "depth images there are: " + names;
+}
 
 std::string join(const std::vector<std::string>& sentences) {
   std::string text;
@@ -25,11 +43,16 @@ std::string siblingName(const std::string& nodelet_name, const std::string& topi
 
 TrackerNodelet::~TrackerNodelet() {
   image_subscriber_.shutdown();
-  for (auto* subscriber : {&info_subscriber_, &initial_pose_subscriber_, &grasp_subscriber_, &twist_subscriber_}) {
+  for (auto* subscriber : {&info_subscriber_, &initial_pose_subscriber_, &detected_pose_subscriber_, &grasp_subscriber_,
+                           &twist_subscriber_}) {
     subscriber->shutdown();
   }
   services_.reset();
+  live_.reset();
+  save_timer_.stop();
   if (worker_) worker_->stop();
+  marker_.reset();  // its thread speaks to the worker
+  savePose();
 }
 
 void TrackerNodelet::onInit() {
@@ -43,6 +66,7 @@ void TrackerNodelet::onInit() {
 void TrackerNodelet::start() {
   ros::NodeHandle& private_node = getPrivateNodeHandle();
   const NodeletOptions options = loadNodeletOptions(private_node);
+  for (const std::string& warning : options.warnings) NODELET_WARN_STREAM(getName() << ": " << warning);
   if (options.robot) {
     NODELET_WARN_STREAM(
         getName() << ": ~robot: joint states are not used yet; publish the held object's twist on control_twist");
@@ -53,12 +77,36 @@ void TrackerNodelet::start() {
   tf_listener_ = std::make_unique<tf2_ros::TransformListener>(*tf_buffer_);
 
   TrackerSession session(getName(), image_topic, info_topic, *tf_buffer_);
-  session.setTracker(buildFromParameters(options));
+  const BuiltTracker built = buildFromParameters(options);
+  session.setTracker(built);
+  if (!options.last_pose_file.empty()) {
+    pose_memory_ = std::make_unique<PoseMemory>(options.last_pose_file);
+    recallLastPose(built.name, session);
+  }
   if (!options.init_file.empty()) applyInitFile(options.init_file, session);
   worker_ = std::make_unique<TrackerWorker>(getName(), std::move(session), ResultPublisher(private_node, options),
                                             options.control_wait_s);
+  if (options.publish_diagnostics)
+    diagnostics_ = std::make_unique<TrackerDiagnostics>(getNodeHandle(), private_node, getName(), image_topic);
+  if (options.interactive_marker) {
+    marker_ = std::make_unique<InitialPoseMarker>(getName(), [this](const geometry_msgs::PoseStamped& pose) {
+      geometry_msgs::PoseWithCovarianceStamped message;
+      message.header = pose.header;
+      message.pose.pose = pose.pose;
+      startAt(message, "the pose of ~initial_pose_marker");
+    });
+  }
+  worker_->setObserver(
+      [this](const DiagnosticSnapshot& snapshot, const TrackerSession& current) { observe(snapshot, current); });
   services_ = std::make_unique<TrackerServices>(private_node, *worker_, *tf_buffer_);
+  if (marker_) services_->offerMarker(*marker_);
+  services_->setLoadedCallback([this](const TrackerConfig& config) { offerLiveParameters(config); });
   worker_->start();
+  if (pose_memory_) {
+    save_timer_ =
+        private_node.createWallTimer(ros::WallDuration(2.0), [this](const ros::WallTimerEvent&) { savePose(); });
+  }
+  if (built.tracker) offerLiveParameters(built.config);
   subscribeCommands();
   subscribe(image_topic, info_topic, options.image_transport);
 }
@@ -85,6 +133,47 @@ BuiltTracker TrackerNodelet::buildFromParameters(const NodeletOptions& options) 
   return built;
 }
 
+/// Once there are parameters that are all good: those that are not stay as they are, for the user to see.
+void TrackerNodelet::offerLiveParameters(const TrackerConfig& config) {
+  const std::lock_guard<std::mutex> lock(live_mutex_);
+  if (live_) return;
+  live_ = std::make_unique<LiveReconfigure>(getPrivateNodeHandle(), config, [this](const TrackerConfig& changed) {
+    worker_->post([changed](TrackerSession& session) { session.setLiveParameters(changed); }, false);
+  });
+}
+
+void TrackerNodelet::observe(const DiagnosticSnapshot& snapshot, const TrackerSession& session) {
+  if (diagnostics_) diagnostics_->setSnapshot(snapshot);
+  const bool is_silent = snapshot.seconds_without_image > kSilenceUntilTopicsAreListedS && !snapshot.status.paused;
+  if (is_silent && !topics_told_) NODELET_WARN_STREAM(getName() << ": " << listDepthTopics());
+  topics_told_ = is_silent;
+  if (!frame_note_told_ && !snapshot.frame_note.empty() && snapshot.status.frames_received > kImagesUntilTfIsThere) {
+    frame_note_told_ = true;
+    NODELET_INFO_STREAM(getName() << ": " << snapshot.frame_note);
+  }
+  if (marker_) marker_->update(session.object(), session.lastResult(), session.cameraFrame());
+  if (pose_memory_) pose_memory_->note(session.lastResult(), session.object().name);
+}
+
+/// Starts where the object was last time; ~init_file, where given, comes after and wins.
+void TrackerNodelet::recallLastPose(const std::string& object_name, TrackerSession& session) {
+  const std::string file = getPrivateNodeHandle().param<std::string>("last_pose_file", "");
+  std::string problem;
+  InitialPose pose;
+  const auto recalled = recallPose(file, object_name, problem);
+  if (!problem.empty()) session.refuseInitialPose(problem);
+  if (!recalled) return;
+  pose.T_frame_object = *recalled;
+  session.initialise(pose, nullptr);
+  NODELET_INFO_STREAM(getName() << ": starting from the last pose of '" << object_name << "' in " << file);
+}
+
+void TrackerNodelet::savePose() {
+  if (!pose_memory_) return;
+  const std::string problem = pose_memory_->save();
+  if (!problem.empty()) NODELET_ERROR_STREAM_THROTTLE(60.0, getName() << ": " << problem);
+}
+
 void TrackerNodelet::applyInitFile(const std::string& init_file, TrackerSession& session) {
   const InitFilePose loaded = loadInitFile(init_file);
   if (!loaded.problem.empty()) {
@@ -108,6 +197,8 @@ std::string TrackerNodelet::findInfoTopic(const std::string& image_topic) {
 void TrackerNodelet::subscribeCommands() {
   ros::NodeHandle& node = getNodeHandle();
   initial_pose_subscriber_ = getPrivateNodeHandle().subscribe("initial_pose", 1, &TrackerNodelet::onInitialPose, this);
+  detected_pose_subscriber_ =
+      getPrivateNodeHandle().subscribe("detected_pose", 1, &TrackerNodelet::onDetectedPose, this);
   grasp_subscriber_ = node.subscribe(siblingName(getName(), "grasp"), 10, &TrackerNodelet::onGrasp, this);
   twist_subscriber_ = node.subscribe<geometry_msgs::TwistStamped>(
       siblingName(getName(), "control_twist"), 100,
@@ -139,14 +230,36 @@ void TrackerNodelet::subscribe(const std::string& image_topic, const std::string
 }
 
 void TrackerNodelet::onInitialPose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message) {
-  const CheckedInitialPose checked = checkInitialPose(*message);
-  worker_->post([checked](TrackerSession& session) {
+  startAt(*message, "~initial_pose");
+}
+
+void TrackerNodelet::startAt(const geometry_msgs::PoseWithCovarianceStamped& message, const std::string& source) {
+  const CheckedInitialPose checked = checkInitialPose(message);
+  worker_->post([checked, source](TrackerSession& session) {
     if (checked.problem.empty()) {
       session.initialise(checked.pose, nullptr);
     } else {
-      session.refuseInitialPose("~initial_pose refused: " + checked.problem);
+      session.refuseInitialPose(source + " refused: " + checked.problem);
     }
   });
+}
+
+/// A detector goes on publishing: only a tracker that has nothing to lose listens.
+void TrackerNodelet::onDetectedPose(const geometry_msgs::PoseStampedConstPtr& message) {
+  geometry_msgs::PoseWithCovarianceStamped pose;
+  pose.header = message->header;
+  pose.pose.pose = message->pose;
+  const CheckedInitialPose checked = checkInitialPose(pose);
+  worker_->post(
+      [checked](TrackerSession& session) {
+        if (!session.needsPose()) return;
+        if (checked.problem.empty()) {
+          session.initialise(checked.pose, nullptr);
+        } else {
+          session.refuseInitialPose("~detected_pose refused: " + checked.problem);
+        }
+      },
+      false);
 }
 
 void TrackerNodelet::onGrasp(const GraspConstPtr& message) {

@@ -44,6 +44,38 @@ TrackerServices::~TrackerServices() {
   spinner_.stop();
 }
 
+void TrackerServices::setLoadedCallback(LoadedCallback callback) {
+  const std::lock_guard<std::mutex> lock(callback_mutex_);
+  loaded_callback_ = std::move(callback);
+}
+
+void TrackerServices::offerMarker(const InitialPoseMarker& marker) {
+  marker_ = &marker;
+  const boost::function<bool(std_srvs::Trigger::Request&, std_srvs::Trigger::Response&)> answer =
+      [this](std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+        return initializeAtMarker(response);
+      };
+  servers_.push_back(node_.advertiseService("initialize_at_marker", answer));
+}
+
+bool TrackerServices::initializeAtMarker(std_srvs::Trigger::Response& response) {
+  InitializeTracker::Request request;
+  const auto pose = marker_->pose();
+  if (!pose) {
+    response.message =
+        "the marker is not shown: there is no image yet, or the object is tracked; call ~reset to place it anew";
+    return true;
+  }
+  request.mode = InitializeTracker::Request::FROM_POSE;
+  request.pose.header = pose->header;
+  request.pose.pose.pose = pose->pose;
+  InitializeTracker::Response answer;
+  initialize(request, answer);
+  response.success = answer.success;
+  response.message = answer.message;
+  return true;
+}
+
 bool TrackerServices::initialize(InitializeTracker::Request& request, InitializeTracker::Response& response) {
   if (request.mode != InitializeTracker::Request::FROM_POSE) {
     response.message = "mode " + std::to_string(request.mode) + " is not available yet; use FROM_POSE (" +
@@ -151,6 +183,8 @@ bool TrackerServices::loadObject(LoadObject::Request& request, LoadObject::Respo
   response.diameter_m = built.tracker->diameterM();
   response.num_triangles = static_cast<std::uint32_t>(built.tracker->object().mesh.triangles.size());
   response.success = worker_.postTracker(built);
+  const std::lock_guard<std::mutex> lock(callback_mutex_);
+  if (response.success && loaded_callback_) loaded_callback_(built.config);
   response.message = response.success ? "loaded '" + built.name + "'; it needs an initial pose" : kStopped;
   return true;
 }

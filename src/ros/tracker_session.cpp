@@ -4,6 +4,7 @@
 #include "depth_object_tracker/ros/image_conversions.h"
 #include "depth_object_tracker/ros/message_conversions.h"
 #include "depth_object_tracker/ros/pose_validation.h"
+#include "depth_object_tracker/ros/status_reason.h"
 
 #include <cmath>
 #include <sstream>
@@ -29,12 +30,14 @@ TrackerSession::TrackerSession(const std::string& name, const std::string& image
       info_topic_(info_topic),
       intrinsics_(intrinsicsForTopic(image_topic)),
       tf_(tf),
-      log_(name) {
+      log_(name),
+      self_check_(image_topic, info_topic) {
   object_.problem = "no object is loaded yet";
 }
 
 void TrackerSession::setTracker(BuiltTracker built) {
   object_ = std::move(built);
+  self_check_.restart();
   budget_ = FrameBudget(object_.tracker ? object_.tracker->config().budget : BudgetConfig());
   abandon("another object was loaded");
   pending_pose_.reset();
@@ -49,6 +52,11 @@ void TrackerSession::initialise(const InitialPose& pose, InitialisationCallback 
   waiting_ = std::move(callback);
   pending_pose_ = PendingPose{pose, std::nullopt};
   initial_pose_problem_.clear();
+}
+
+bool TrackerSession::needsPose() const {
+  const bool has_none = last_result_.state == TrackerState::kUninitialized || last_result_.state == TrackerState::kLost;
+  return has_none && !pending_pose_;
 }
 
 void TrackerSession::refuseInitialPose(const std::string& problem) {
@@ -66,6 +74,12 @@ void TrackerSession::reset() {
   if (object_.tracker) object_.tracker->reset();
 }
 
+void TrackerSession::setLiveParameters(const TrackerConfig& changed) {
+  if (!object_.tracker) return;  // the parameter server keeps them for the next object
+  object_.tracker->setLiveParameters(changed);
+  budget_ = FrameBudget(object_.tracker->config().budget);
+}
+
 void TrackerSession::addTwist(const geometry_msgs::TwistStamped& twist) {
   const std::string problem = held_motion_.addTwist(twist, camera_frame_, tf_);
   if (!problem.empty()) log_.warn(problem);
@@ -76,6 +90,7 @@ FrameOutcome TrackerSession::process(const CameraFrame& frame) {
   outcome.header = frame.image->header;
   std::string problem = viewFrame(frame, outcome);
   last_header_ = outcome.header;
+  if (problem.empty()) checkSetUp(frame, outcome);
   if (problem.empty() && !object_.tracker) problem = object_.problem;
   if (!problem.empty()) {
     log_.warn(problem);
@@ -83,7 +98,7 @@ FrameOutcome TrackerSession::process(const CameraFrame& frame) {
     return outcome;
   }
   warnAboutCalibration(frame);
-  initial_pose_problem_ = applyPendingPose(outcome.header.stamp.toSec());
+  initial_pose_problem_ = applyPendingPose(outcome);
   runTracker(outcome);
   return outcome;
 }
@@ -108,6 +123,12 @@ std::string TrackerSession::viewFrame(const CameraFrame& frame, FrameOutcome& ou
   return "";
 }
 
+/// Tells what the self-check finds; the log throttles what stays as it is.
+void TrackerSession::checkSetUp(const CameraFrame& frame, const FrameOutcome& outcome) {
+  if (!self_check_.look(frame, outcome.depth, outcome.camera, object_.tracker.get())) return;
+  for (const std::string& finding : self_check_.findings()) log_.warn(finding);
+}
+
 void TrackerSession::warnAboutCalibration(const CameraFrame& frame) {
   if (intrinsics_ == Intrinsics::kRaw && !distortion_reported_ && hasDistortion(*frame.info)) {
     distortion_reported_ = true;
@@ -120,7 +141,7 @@ void TrackerSession::warnAboutCalibration(const CameraFrame& frame) {
 }
 
 /// Hands the pending pose to the tracker; returns why it cannot be done (yet).
-std::string TrackerSession::applyPendingPose(double stamp_s) {
+std::string TrackerSession::applyPendingPose(const FrameOutcome& outcome) {
   if (!pending_pose_) return initial_pose_problem_;
   ResolvedPose resolved = resolveInitialPose(pending_pose_->pose, camera_frame_, tf_);
   if (!resolved.problem.empty()) {
@@ -136,7 +157,9 @@ std::string TrackerSession::applyPendingPose(double stamp_s) {
       fillMissingVariances(resolved.covariance, defaults.position_stddev_m, defaults.rotation_stddev_rad);
   object_.tracker->initialise(resolved.T_camera_object, resolved.covariance);
   pending_pose_.reset();
-  given_pose_ = GivenPose{resolved.T_camera_object, resolved.covariance, stamp_s};
+  given_pose_ = GivenPose{resolved.T_camera_object, resolved.covariance, outcome.header.stamp.toSec()};
+  self_check_.lookAtPose(resolved.T_camera_object, outcome.depth, outcome.camera, *object_.tracker);
+  for (const std::string& finding : self_check_.findings()) log_.warn(finding);
   return "";
 }
 
@@ -175,9 +198,8 @@ void TrackerSession::runTracker(FrameOutcome& outcome) {
   reportInput(outcome, is_restored);
   const bool has_state_to_tell = outcome.result.state != TrackerState::kUninitialized && outcome.result.has_pose;
   outcome.is_new_estimate = outcome.processed && has_state_to_tell;
-  if (!initial_pose_problem_.empty() && outcome.result.state != TrackerState::kTracking) {
-    outcome.result.reason = initial_pose_problem_;
-  }
+  if (outcome.result.state == TrackerState::kTracking) self_check_.forgetPose();
+  explainState(initial_pose_problem_, self_check_.findings(), outcome.result);
   last_result_ = outcome.result;
   answerWaiting(outcome);
 }
@@ -209,7 +231,8 @@ void TrackerSession::reportInput(FrameOutcome& outcome, bool is_restored) {
       break;
     case Input::kNoValidDepth:
       text << image
-           << "has no valid depth (all 0, NaN or out of range): is the camera covered, too near, or switched off?";
+           << "has no valid depth within max_depth_m (0 % of the pixels looked at): is the unit right (16UC1 "
+              "millimetres, 32FC1 metres)? is the lens covered, or everything too near?";
       break;
     case Input::kUnusable:
       text << image << "cannot be used: " << result.reason;
@@ -260,7 +283,7 @@ TrackerResult TrackerSession::idleResult(double seconds_without_image) const {
   } else if (paused_) {
     result.reason = "paused; call ~pause with data: false to go on";
   } else if (result.state == TrackerState::kUninitialized && !pending_pose_) {
-    result.reason = "no initial pose; call ~initialize, publish on ~initial_pose or set ~init_file";
+    result.reason = kNoInitialPoseReason;
   }
   return result;
 }

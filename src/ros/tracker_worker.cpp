@@ -69,7 +69,9 @@ void TrackerWorker::carryOut(std::deque<FrameInbox::Command>& commands) {
 void TrackerWorker::handleFrame(const CameraFrame& frame) {
   last_image_at_ = Clock::now();
   idle_reported_ = false;
-  statistics_.input_rate.update(inbox_.counters().received, last_image_at_);
+  const FrameInbox::Counters counters = inbox_.counters();
+  statistics_.input_rate.update(counters.received, last_image_at_);
+  watchStamp(frame.image->header.stamp);
   if (session_.paused()) return;
   waitForTwist(frame);
   const FrameOutcome outcome = session_.process(frame);
@@ -79,7 +81,19 @@ void TrackerWorker::handleFrame(const CameraFrame& frame) {
   if (outcome.is_new_estimate) ++statistics_.published;
   statistics_.output_rate.update(statistics_.published, Clock::now());
   statistics_.latency_s = secondsSince(frame.received_at);
+  const std::string advice =
+      drop_watch_.update(counters.received, counters.dropped, outcome.result.time.total_s, last_image_at_);
+  if (!advice.empty()) log_.warn(advice);
   publishStatus(outcome.result);
+}
+
+/// Tells an odd stamp once, until stamps have been good again.
+void TrackerWorker::watchStamp(const ros::Time& stamp) {
+  if (!ros::Time::isValid()) return;  // no simulated time yet
+  stamp_age_s_ = (ros::Time::now() - stamp).toSec();
+  const std::string problem = findStampProblem(*stamp_age_s_);
+  if (!problem.empty() && !stamp_problem_told_) log_.warn(problem);
+  stamp_problem_told_ = !problem.empty();
 }
 
 /// The twist up to the image's stamp often arrives just after the image.
@@ -96,6 +110,8 @@ void TrackerWorker::waitForTwist(const CameraFrame& frame) {
 void TrackerWorker::reportIdle() {
   const bool is_idle = secondsSince(last_status_at_) > 0.95 * kIdlePeriod.count();
   if (!announce_ && !is_idle) return;
+  if (is_idle) statistics_.input_rate.update(inbox_.counters().received, Clock::now());
+  if (is_idle) statistics_.output_rate.update(statistics_.published, Clock::now());
   const TrackerResult result = session_.idleResult(secondsSince(last_image_at_));
   if (is_idle && !idle_reported_ && !session_.paused() && !result.reason.empty()) {
     log_.warn(result.reason);
@@ -110,9 +126,23 @@ void TrackerWorker::publishStatus(const TrackerResult& result) {
   context.object_name = session_.object().name;
   context.paused = session_.paused();
   context.grasped = session_.grasped();
-  publisher_.publishStatus(buildStatus(result, context, statistics_, inbox_.counters()));
+  const TrackerStatus status = buildStatus(result, context, statistics_, inbox_.counters());
+  publisher_.publishStatus(status);
+  tellObserver(status);
   last_status_at_ = Clock::now();
   announce_ = false;
+}
+
+void TrackerWorker::tellObserver(const TrackerStatus& status) const {
+  if (!observer_) return;
+  DiagnosticSnapshot snapshot;
+  snapshot.status = status;
+  snapshot.seconds_without_image = secondsSince(last_image_at_);
+  snapshot.stamp_age_s = stamp_age_s_;
+  snapshot.dropped_share = drop_watch_.droppedShare();
+  snapshot.findings = session_.findings();
+  snapshot.frame_note = session_.missingParent();
+  observer_(snapshot, session_);
 }
 
 }  // namespace depth_object_tracker

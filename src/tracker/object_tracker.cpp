@@ -6,6 +6,7 @@
 #include "depth_object_tracker/filter/stopwatch.h"
 #include "depth_object_tracker/render/depth_renderer.h"
 #include "depth_object_tracker/tracker/frame_clock.h"
+#include "depth_object_tracker/tracker/live_parameters.h"
 #include "depth_object_tracker/tracker/pose_search.h"
 #include "depth_object_tracker/tracker/reacquisition.h"
 #include "depth_object_tracker/tracker/resolution.h"
@@ -415,6 +416,14 @@ void ObjectTracker::setEffort(double effort) {
   self.effort = std::clamp(effort, 1e-3, 1.0);
   const int wanted = static_cast<int>(std::lround(std::sqrt(self.effort) * self.config.filter.num_particles));
   self.filter.setNumParticles(std::max({1, wanted, std::min(kLeastParticles, self.config.filter.num_particles)}));
+}
+
+void ObjectTracker::setLiveParameters(const TrackerConfig& changed) {
+  Implementation& self = *implementation_;
+  self.config = withLiveParameters(self.config, changed);
+  self.status.setConfig(self.config.status);
+  self.resolution.setConfig(self.config.resolution);
+  setEffort(self.effort);
 }
 
 TrackerResult ObjectTracker::update(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s,

@@ -14,6 +14,13 @@ constexpr double kExponentAtFullResolution = 0.015;
 
 }  // namespace
 
+void ResolutionChooser::setConfig(const ResolutionConfig& config) {
+  const bool is_same =
+      config.downsampling == config_.downsampling && config.target_model_pixels == config_.target_model_pixels;
+  if (!is_same) reset();
+  config_ = config;
+}
+
 int ResolutionChooser::choose(double full_resolution_pixels, double share) {
   if (config_.downsampling > 0) return config_.downsampling;
   if (full_resolution_pixels <= 0.0) return factor_ > 0 ? factor_ : kFactorWhenUnknown;

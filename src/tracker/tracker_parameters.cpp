@@ -3,12 +3,11 @@
 // config/tracker.yaml.
 #include "depth_object_tracker/tracker/tracker_parameters.h"
 
+#include "depth_object_tracker/tracker/nearest_name.h"
 #include "parameter_binding.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 
 namespace depth_object_tracker {
@@ -99,33 +98,14 @@ const Bindings& bindings() {
   return all;
 }
 
-/// Number of letters to insert, delete or replace to turn one word into the other.
-std::size_t editDistance(const std::string& from, const std::string& to) {
-  std::vector<std::size_t> row(to.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < to.size(); ++j) {
-      const std::size_t replaced = diagonal + (from[i] == to[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
 const ParameterBinding& findBinding(const std::string& name) {
-  const ParameterBinding* nearest = nullptr;
-  std::size_t nearest_distance = std::numeric_limits<std::size_t>::max();
+  std::vector<std::string> names;
   for (const ParameterBinding& binding : bindings()) {
     if (binding.info.name == name) return binding;
-    // Nobody types names of that length: bounds the work for hostile keys.
-    const std::size_t distance = editDistance(name.substr(0, 100), binding.info.name);
-    if (distance < nearest_distance) nearest = &binding, nearest_distance = distance;
+    names.push_back(binding.info.name);
   }
-  throw std::invalid_argument("parameter `" + name + "` is unknown; the nearest known one is `" + nearest->info.name +
-                              "`");
+  throw std::invalid_argument("parameter `" + name + "` is unknown; the nearest known one is `" +
+                              nearestName(name, names) + "`");
 }
 
 }  // namespace

@@ -8,7 +8,9 @@ add_tracker_test(ros_conversions_test
           ros/overlay_test.cpp
   LIBRARIES depth_object_tracker_ros)
 add_tracker_test(ros_inputs_test
-  SOURCES ros/camera_info_matcher_test.cpp ros/frame_inbox_test.cpp ros/parameter_loader_test.cpp ros/twist_buffer_test.cpp
+  SOURCES ros/camera_info_matcher_test.cpp ros/frame_inbox_test.cpp ros/parameter_loader_test.cpp ros/pose_memory_test.cpp
+          ros/tracker_diagnostics_test.cpp
+          ros/twist_buffer_test.cpp
   LIBRARIES depth_object_tracker_ros)
 add_tracker_test(tracker_session_test SOURCES ros/tracker_session_test.cpp LIBRARIES depth_object_tracker_ros)
 
@@ -17,6 +19,7 @@ function(add_ros_test name)
   if(ARGN)
     add_executable(${name} ${ARGN})
     target_link_libraries(${name} PRIVATE depth_object_tracker_ros depth_object_tracker_warnings GTest::gtest)
+    target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/support)
     target_compile_definitions(${name} PRIVATE PROJECT_SOURCE_FOLDER="${PROJECT_SOURCE_DIR}")
     add_dependencies(${name} depth_object_tracker_nodelets)
   endif()
@@ -28,11 +31,19 @@ endfunction()
 
 find_program(ROSTEST_PROGRAM rostest)
 if(ROSTEST_PROGRAM)
+  add_ros_test(initial_pose_rostest ros/initial_pose_rostest.cpp)
+  add_ros_test(live_reconfigure_rostest ros/live_reconfigure_rostest.cpp)
   add_ros_test(tracker_bad_input_rostest ros/tracker_bad_input_rostest.cpp)
   add_ros_test(tracker_bad_start_rostest ros/tracker_bad_start_rostest.cpp)
+  add_ros_test(tracker_diagnostics_rostest ros/tracker_diagnostics_rostest.cpp)
   add_ros_test(tracker_outputs_rostest ros/tracker_outputs_rostest.cpp)
   add_ros_test(tracker_services_rostest ros/tracker_services_rostest.cpp)
   add_ros_test(zero_copy_rostest ros/zero_copy_rostest.cpp)
+  if(WITH_RVIZ_PANEL)
+    add_ros_test(tracker_panel_rostest ros/tracker_panel_rostest.cpp)
+    target_link_libraries(tracker_panel_rostest PRIVATE depth_object_tracker_rviz)
+    target_compile_definitions(tracker_panel_rostest PRIVATE QT_NO_KEYWORDS)
+  endif()
   add_ros_test(track_launch_rostest)
   add_ros_test(tracker_node_rostest)
   add_ros_test(demo_rostest ros/demo_rostest.cpp)

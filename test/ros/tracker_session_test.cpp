@@ -220,5 +220,121 @@ TEST_F(TrackerSessionTest, SaysWhenNoImageComes) {
   EXPECT_NE(idle.reason.find("no image on '/camera/depth/image_raw'"), std::string::npos) << idle.reason;
 }
 
+// What the self-check finds is the status's reason until the object is tracked. Each mistake by itself; the judgement
+// is tested with input_check.h.
+class TrackerSessionSelfCheck : public TrackerSessionTest {
+ protected:
+  void expectReason(const FrameOutcome& outcome, const std::vector<std::string>& parts) {
+    EXPECT_NE(outcome.result.state, TrackerState::kTracking);
+    for (const std::string& part : parts) {
+      EXPECT_NE(outcome.result.reason.find(part), std::string::npos) << part << " is not in: " << outcome.result.reason;
+    }
+    EXPECT_FALSE(session_.findings().empty());
+  }
+
+  FrameOutcome stepWith(const PinholeCamera& camera) {
+    stamp_s_ += kFrameS;
+    return process(imageAt(testPose()), makeCameraInfo(camera));
+  }
+};
+
+TEST_F(TrackerSessionSelfCheck, FindsNothingInAGoodSetUp) {
+  initialise(testPose());
+  expectTracking(testPose());
+  EXPECT_TRUE(session_.findings().empty()) << session_.findings().front();
+}
+
+TEST_F(TrackerSessionSelfCheck, MeshInMillimetres) {
+  ObjectSource source;
+  source.mesh = testMeshFile();
+  source.mesh_scale = 1000.0;
+  session_.setTracker(buildTracker(source, TrackerConfig()));
+  initialise(testPose());
+  const FrameOutcome outcome = step(testPose());  // refused when it is loaded
+  EXPECT_NE(outcome.result.reason.find("try mesh_scale 1"), std::string::npos) << outcome.result.reason;
+}
+
+TEST_F(TrackerSessionSelfCheck, MeshLargerThanTheView) {
+  ObjectSource source;
+  source.mesh = testMeshFile();
+  source.mesh_scale = 30.0;
+  session_.setTracker(buildTracker(source, TrackerConfig()));
+  initialise(testPose());
+  expectReason(step(testPose()), {"bracket", "in millimetres?", "mesh_scale"});
+}
+
+TEST_F(TrackerSessionSelfCheck, FocalLengthsSwapped) {
+  PinholeCamera camera = testCamera();
+  camera.fx = 380.0;
+  expectReason(stepWith(camera), {"/camera/depth/camera_info", "fx is 380.0", "swapped"});
+}
+
+TEST_F(TrackerSessionSelfCheck, CalibrationOfAnotherResolution) {
+  PinholeCamera camera = testCamera();
+  camera.cx = 319.5, camera.cy = 239.5;
+  expectReason(stepWith(camera), {"/camera/depth/camera_info", "640x480"});
+}
+
+TEST_F(TrackerSessionSelfCheck, DepthInTheWrongUnit) {
+  auto depth_m = scene_.depth(testPose());
+  for (float& depth : depth_m) depth *= 1000.0f;
+  const auto image = makeFloatImage(depth_m, testCamera().width, testCamera().height);
+  image->header.stamp = ros::Time(stamp_s_);
+  expectReason(process(image, makeCameraInfo(testCamera())), {"/camera/depth/image_raw", "32FC1 must be metres"});
+}
+
+TEST_F(TrackerSessionSelfCheck, NoValidDepthBeforeAnyPose) {
+  stamp_s_ += kFrameS;
+  const auto image = makeUint16Image(std::vector<float>(320 * 240, 0.0f), 320, 240);
+  image->header.stamp = ros::Time(stamp_s_);
+  expectReason(process(image, makeCameraInfo(testCamera())), {"/camera/depth/image_raw", "no valid depth", "lens"});
+}
+
+TEST_F(TrackerSessionSelfCheck, PoseWhereNothingIs) {
+  Pose pose = testPose();
+  pose.translation().x() -= 0.25;
+  initialise(pose);
+  expectReason(step(testPose()), {"initial pose", "object is not there"});
+  initialise(testPose());
+  expectTracking(testPose());
+  EXPECT_TRUE(session_.findings().empty()) << session_.findings().front();
+}
+
+TEST_F(TrackerSessionSelfCheck, AHiddenObjectIsToldAsHidden) {
+  const auto info = makeCameraInfo(testCamera());
+  info->header.frame_id = "other_camera";  // suspicious, but good enough
+  initialise(testPose());
+  const auto stepWithImage = [&](const sensor_msgs::ImagePtr& image) {
+    stamp_s_ += kFrameS;
+    image->header.stamp = ros::Time(stamp_s_);
+    return process(image, info);
+  };
+  for (int i = 0; i < 6; ++i) EXPECT_TRUE(stepWithImage(imageAt(testPose())).processed);
+  EXPECT_FALSE(session_.findings().empty());
+  FrameOutcome outcome;
+  for (int i = 0; i < 5; ++i) outcome = stepWithImage(makeUint16Image(std::vector<float>(320 * 240, 0.4f), 320, 240));
+  EXPECT_EQ(outcome.result.state, TrackerState::kOccluded);
+  EXPECT_NE(outcome.result.reason.find("hidden"), std::string::npos) << outcome.result.reason;
+}
+
+TEST_F(TrackerSessionSelfCheck, FramesOfTwoCameras) {
+  const auto info = makeCameraInfo(testCamera());
+  info->header.frame_id = "other_camera";
+  stamp_s_ += kFrameS;
+  expectReason(process(imageAt(testPose()), info), {"other_camera", "camera_depth_optical_frame"});
+}
+
+TEST_F(TrackerSessionSelfCheck, SaysWhenTfDoesNotKnowTheCamera) {
+  EXPECT_EQ(session_.missingParent(), "");  // no image yet
+  step(testPose());
+  EXPECT_NE(session_.missingParent().find("camera_depth_optical_frame"), std::string::npos);
+  geometry_msgs::TransformStamped transform;
+  transform.header.frame_id = "world";
+  transform.child_frame_id = "camera_depth_optical_frame";
+  transform.transform = toTransformMessage(Pose::Identity());
+  tf_.setTransform(transform, "test", true);
+  EXPECT_EQ(session_.missingParent(), "");
+}
+
 }  // namespace
 }  // namespace depth_object_tracker

@@ -5,6 +5,7 @@
 #include "depth_object_tracker/tools/bop_scene.h"
 #include "depth_object_tracker/tools/scene_pictures.h"
 #include "depth_object_tracker/tools/sequence_summary.h"
+#include "depth_object_tracker/tracker/input_check.h"
 #include "depth_object_tracker/tracker/object_tracker.h"
 
 #include <gtest/gtest.h>
@@ -12,6 +13,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <optional>
+#include <vector>
 
 namespace depth_object_tracker {
 namespace {
@@ -82,6 +85,53 @@ TEST_P(RecordedScenes, AreTrackedWithinTheBound) {
   summary.print(std::cout);
   EXPECT_EQ(summary.losses().frames, 0);
   EXPECT_LT(percentile(errors, 0.5), GetParam().max_median_error_m);
+}
+
+/// Every folder below the data folder that holds a scene with mesh and initial pose.
+std::vector<fs::path> sceneFolders() {
+  std::vector<fs::path> folders;
+  if (!fs::exists(dataFolder())) return folders;
+  for (const auto& entry : fs::recursive_directory_iterator(dataFolder())) {
+    const fs::path folder = entry.path().parent_path();
+    if (entry.path().filename() == "scene_camera.json" && fs::exists(folder / "mesh.obj") &&
+        fs::exists(folder / "init.json")) {
+      folders.push_back(folder);
+    }
+  }
+  return folders;
+}
+
+/// What the self-check says about one image; about the initial pose only where one is given.
+InputFindings findingsOf(const ObjectModel& object, const DepthImageView& depth, const PinholeCamera& camera,
+                         const std::optional<Pose>& initial) {
+  const double diameter_m = diameter(object.mesh), max_depth_m = TrackerConfig().pixel.max_depth_m;
+  const DepthSummary summary = summariseDepth(depth, max_depth_m);
+  InputFindings findings = checkDepth(summary, depth.pixel_type, max_depth_m);
+  const auto add = [&](const InputFindings& more) { findings.insert(findings.end(), more.begin(), more.end()); };
+  add(checkCamera(camera, false));
+  add(checkMeshSize(diameter_m, summary, camera));
+  if (initial) add(checkInitialPose(object.mesh, diameter_m, *initial, depth, camera));
+  return findings;
+}
+
+TEST(SelfCheckOnRecordedScenes, FindsNothingInAnyImage) {
+  const std::vector<fs::path> folders = sceneFolders();
+  if (folders.empty()) GTEST_SKIP() << "no scenes below " << dataFolder() << "; set DEPTH_OBJECT_TRACKER_DATA";
+  for (const fs::path& folder : folders) {
+    const BopScene scene = loadBopScene(folder.string(), BopSceneOptions());
+    const ObjectModel object = loadSceneObject(folder);
+    ScenePictures pictures(scene.frames, [](const std::string& message) { ADD_FAILURE() << message; });
+    std::optional<Pose> initial = loadPoseFile((folder / "init.json").string());
+    for (const SceneFrame& frame : scene.frames) {
+      const DepthPicture picture = pictures.read(frame);
+      for (const auto& finding :
+           findingsOf(object, picture.view(frame.depth_unit_m), pictures.camera(frame), initial)) {
+        ADD_FAILURE() << folder.filename() << ", frame " << frame.id << ": " << finding.message;
+      }
+      initial.reset();
+    }
+  }
+  std::cout << folders.size() << " scenes\n";
 }
 
 }  // namespace

@@ -4,6 +4,7 @@ add_tracker_test(tracker_sequence_tests
     sequence/covariance_test.cpp
     sequence/determinism_test.cpp
     sequence/input_test.cpp
+    sequence/live_parameters_test.cpp
     sequence/motion_test.cpp
     sequence/scripted_scene.cpp
   LIBRARIES depth_object_tracker_simulator depth_object_tracker_tools)

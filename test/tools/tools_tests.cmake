@@ -14,6 +14,9 @@ add_tracker_test(track_sequence_test
 target_compile_definitions(track_sequence_test PRIVATE TRACK_SEQUENCE="$<TARGET_FILE:track_sequence>")
 add_dependencies(track_sequence_test track_sequence)
 
+add_test(NAME troubleshooting_quotes_messages
+  COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/check_troubleshooting ${PROJECT_SOURCE_DIR})
+
 if(TARGET scene_to_bag)
   add_tracker_test(scene_to_bag_test
     SOURCES tools/scene_to_bag_test.cpp

@@ -3,6 +3,7 @@
 #include "depth_object_tracker/tracker/tracker_parameters.h"
 
 #include "count_fields.h"
+#include "parameter_table.h"
 #include "parameter_yaml.h"
 #include "temporary_folder.h"
 
@@ -265,6 +266,25 @@ TEST(ShippedParameters, PaperYamlIsThePapersFilter) {
     EXPECT_TRUE(value == expected || value == expected + ".0")
         << parameter.name << " is " << value << ", not " << expected;
   }
+}
+
+/// UPDATE_PARAMETER_TABLE=1 in the environment writes the table anew.
+TEST(ShippedParameters, DocumentationHoldsTheTable) {
+  const std::string path = PROJECT_SOURCE_FOLDER "/doc/parameters.md";
+  std::ifstream file(path);
+  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const std::string begin_mark = "<!-- table made from the code, begin -->\n", end_mark = "<!-- end -->\n";
+  const std::size_t begin = text.find(begin_mark), end = text.find(end_mark);
+  ASSERT_NE(begin, std::string::npos);
+  ASSERT_NE(end, std::string::npos);
+  const std::size_t first = begin + begin_mark.size();
+  if (std::getenv("UPDATE_PARAMETER_TABLE") != nullptr) {
+    text.replace(first, end - first, renderParameterTable());
+    std::ofstream(path) << text;
+    return;
+  }
+  EXPECT_EQ(text.substr(first, end - first), renderParameterTable())
+      << "run this test once with UPDATE_PARAMETER_TABLE=1 in the environment";
 }
 
 }  // namespace

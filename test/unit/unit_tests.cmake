@@ -7,6 +7,7 @@ add_tracker_test(geometry_unit_tests SOURCES
   unit/pose_test.cpp
   unit/symmetry_test.cpp
   unit/triangle_mesh_test.cpp)
+add_tracker_test(input_check_unit_tests SOURCES unit/input_check_test.cpp)
 add_tracker_test(parameter_unit_tests SOURCES
   unit/object_model_test.cpp
   unit/tracker_parameters_test.cpp)

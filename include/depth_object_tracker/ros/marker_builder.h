@@ -17,7 +17,11 @@ class MarkerBuilder {
   /// Copies the mesh once; the object's tracker must not be null.
   void setObject(const BuiltTracker& object);
 
-  /// The object at its pose, green when TRACKING, yellow otherwise. A state without a pose to show gives a deletion.
+  /// The object in one colour [0, 1], without header and pose.
+  visualization_msgs::Marker ghost(float red, float green, float blue, float alpha) const;
+
+  /// The object at its pose: green TRACKING, blue INITIALIZING, amber OCCLUDED, faint red where it was LOST. A state
+  /// without a pose to show gives a deletion.
   visualization_msgs::MarkerArrayPtr build(const std_msgs::Header& header, const TrackerResult& result) const;
 
  private:

@@ -15,7 +15,8 @@ struct BuiltTracker {
   std::string name;                        ///< of the object; also the tf child frame
   std::string mesh_file;                   ///< absolute path
   double mesh_scale = 1.0;
-  std::string problem;  ///< what was read, what is wrong, what to do
+  TrackerConfig config;  ///< as the tracker was built
+  std::string problem;   ///< what was read, what is wrong, what to do
 };
 
 /// Loads the mesh and builds a tracker; never throws. May take seconds for a large mesh.

@@ -33,14 +33,18 @@ struct ObjectSource {
 
 struct NodeletOptions {
   ObjectSource object;
-  std::string init_file;  ///< JSON pose at start; empty = wait to be told
+  std::string init_file;           ///< JSON pose at start; empty = wait to be told
+  std::string last_pose_file;      ///< the last good pose is kept there and taken up again; empty = not
+  bool interactive_marker = true;  ///< the mesh in rviz, to be dragged to the object
   std::string image_transport = "raw";
   bool robot = false;  ///< joint states move the object while it is held (not available yet)
   bool publish_tf = true;
+  bool publish_diagnostics = true;
   bool marker_use_mesh_resource = false;  ///< rviz loads the mesh file itself, instead of a triangle list
   bool publish_debug = false;             ///< ~debug/last_image_address
   double control_wait_s = 0.02;           ///< longest wait for the control twist that belongs to an image
   std::vector<std::string> problems;      ///< as in TrackerParameters
+  std::vector<std::string> warnings;      ///< parameters that nobody reads, with the nearest that somebody does
 };
 
 NodeletOptions loadNodeletOptions(const ros::NodeHandle& private_node);

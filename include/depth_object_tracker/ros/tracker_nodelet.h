@@ -3,15 +3,21 @@
 #pragma once
 
 #include "depth_object_tracker/ros/camera_info_matcher.h"
+#include "depth_object_tracker/ros/initial_pose_marker.h"
+#include "depth_object_tracker/ros/live_reconfigure.h"
+#include "depth_object_tracker/ros/pose_memory.h"
+#include "depth_object_tracker/ros/tracker_diagnostics.h"
 #include "depth_object_tracker/ros/tracker_services.h"
 #include "depth_object_tracker/ros/tracker_worker.h"
 
+#include <geometry_msgs/PoseStamped.h>
 #include <image_transport/image_transport.h>
 #include <nodelet/nodelet.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
 #include <memory>
+#include <mutex>
 #include <optional>
 
 namespace depth_object_tracker {
@@ -28,17 +34,31 @@ class TrackerNodelet : public nodelet::Nodelet {
   void subscribe(const std::string& image_topic, const std::string& info_topic, const std::string& transport);
   void subscribeCommands();
   std::string findInfoTopic(const std::string& image_topic);
+  void offerLiveParameters(const TrackerConfig& config);
+  void observe(const DiagnosticSnapshot& snapshot, const TrackerSession& session);
+  void recallLastPose(const std::string& object_name, TrackerSession& session);
+  void savePose();
+  void startAt(const geometry_msgs::PoseWithCovarianceStamped& message, const std::string& source);
+  void onDetectedPose(const geometry_msgs::PoseStampedConstPtr& message);
   void onInitialPose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message);
   void onGrasp(const GraspConstPtr& message);
 
   // In the order of dependence: what is below uses what is above, and goes first.
   std::unique_ptr<tf2_ros::Buffer> tf_buffer_;
   std::unique_ptr<tf2_ros::TransformListener> tf_listener_;
+  std::unique_ptr<TrackerDiagnostics> diagnostics_;  // null when they are switched off
+  std::unique_ptr<InitialPoseMarker> marker_;        // null when it is switched off
+  std::unique_ptr<PoseMemory> pose_memory_;          // null when it is switched off
+  ros::WallTimer save_timer_;
   std::unique_ptr<TrackerWorker> worker_;
+  std::mutex live_mutex_;  // guards the creation of live_
+  std::unique_ptr<LiveReconfigure> live_;
   std::unique_ptr<TrackerServices> services_;
   std::optional<CameraInfoMatcher> matcher_;
+  bool frame_note_told_ = false, topics_told_ = false;
   image_transport::Subscriber image_subscriber_;
-  ros::Subscriber info_subscriber_, initial_pose_subscriber_, grasp_subscriber_, twist_subscriber_;
+  ros::Subscriber info_subscriber_, initial_pose_subscriber_, detected_pose_subscriber_, grasp_subscriber_,
+      twist_subscriber_;
 };
 
 }  // namespace depth_object_tracker

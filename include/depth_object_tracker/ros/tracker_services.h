@@ -2,6 +2,7 @@
 // The tracker's services, on threads of their own: one that waits holds up neither images nor other nodelets.
 #pragma once
 
+#include "depth_object_tracker/ros/initial_pose_marker.h"
 #include "depth_object_tracker/ros/tracker_worker.h"
 
 #include <depth_object_tracker/InitializeTracker.h>
@@ -15,6 +16,8 @@
 #include <std_srvs/Trigger.h>
 
 #include <atomic>
+#include <functional>
+#include <mutex>
 #include <vector>
 
 namespace depth_object_tracker {
@@ -23,6 +26,13 @@ class TrackerServices {
  public:
   /// Answers calls at once. @param worker, tf outlive this object.
   TrackerServices(const ros::NodeHandle& private_node, TrackerWorker& worker, const tf2::BufferCore& tf);
+
+  /// Told the configuration of each object that was loaded, on a service's thread.
+  using LoadedCallback = std::function<void(const TrackerConfig&)>;
+  void setLoadedCallback(LoadedCallback callback);
+
+  /// Adds ~initialize_at_marker. @param marker outlives this object.
+  void offerMarker(const InitialPoseMarker& marker);
 
   /// Ends waiting calls. The worker must still be there.
   ~TrackerServices();
@@ -34,6 +44,7 @@ class TrackerServices {
   bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
 
+  bool initializeAtMarker(std_srvs::Trigger::Response& response);
   std::string findObstacle(const InitialPose& pose) const;
   InitialisationOutcome initialiseAndWait(const InitialPose& pose, double timeout_s);
   ObjectSource sourceFor(const LoadObject::Request& request) const;
@@ -41,10 +52,13 @@ class TrackerServices {
   ros::NodeHandle node_;
   TrackerWorker& worker_;
   const tf2::BufferCore& tf_;
+  const InitialPoseMarker* marker_ = nullptr;
   ros::CallbackQueue queue_;
   ros::AsyncSpinner spinner_;
   std::vector<ros::ServiceServer> servers_;
   std::atomic<bool> stopping_{false};
+  std::mutex callback_mutex_;  // guards loaded_callback_
+  LoadedCallback loaded_callback_;
 };
 
 }  // namespace depth_object_tracker

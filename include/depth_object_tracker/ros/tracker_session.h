@@ -7,6 +7,7 @@
 #include "depth_object_tracker/ros/held_motion.h"
 #include "depth_object_tracker/ros/initial_pose_resolver.h"
 #include "depth_object_tracker/ros/object_source.h"
+#include "depth_object_tracker/ros/self_check.h"
 #include "depth_object_tracker/ros/throttled_log.h"
 #include "depth_object_tracker/tracker/frame_budget.h"
 
@@ -19,6 +20,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace depth_object_tracker {
 
@@ -55,9 +57,13 @@ class TrackerSession {
   /// be empty.
   void initialise(const InitialPose& pose, InitialisationCallback callback);
 
+  /// True while UNINITIALIZED or LOST with no initial pose under way: a detector's pose is then welcome.
+  bool needsPose() const;
+
   /// Says in log and status why a wished pose was refused; what is tracked goes on.
   void refuseInitialPose(const std::string& problem);
   void reset();
+  void setLiveParameters(const TrackerConfig& changed);
   void setPaused(bool paused) { paused_ = paused; }
   void setGrasp(bool grasped, const std::string& link) { held_motion_.setGrasp(grasped, link); }
   void addTwist(const geometry_msgs::TwistStamped& twist);
@@ -73,11 +79,18 @@ class TrackerSession {
   /// Ends everybody's waiting, with this message.
   void abandon(const std::string& message);
 
+  const TrackerResult& lastResult() const { return last_result_; }
   const BuiltTracker& object() const { return object_; }
   bool paused() const { return paused_; }
   bool grasped() const { return held_motion_.isGrasped(); }
   const std::string& cameraFrame() const { return camera_frame_; }
   const std_msgs::Header& lastHeader() const { return last_header_; }
+
+  /// What the self-check finds suspicious, one sentence each.
+  std::vector<std::string> findings() const { return self_check_.findings(); }
+
+  /// Why the tree of frames cannot place the camera; "" when it can, or when no image has come yet.
+  std::string missingParent() const { return describeMissingParent(camera_frame_, tf_); }
 
  private:
   struct PendingPose {
@@ -94,7 +107,8 @@ class TrackerSession {
 
   std::string viewFrame(const CameraFrame& frame, FrameOutcome& outcome);
   void warnAboutCalibration(const CameraFrame& frame);
-  std::string applyPendingPose(double stamp_s);
+  void checkSetUp(const CameraFrame& frame, const FrameOutcome& outcome);
+  std::string applyPendingPose(const FrameOutcome& outcome);
   bool restoreGivenPose(double stamp_s);
   std::optional<ControlInput> controlFor(double stamp_s);
   void runTracker(FrameOutcome& outcome);
@@ -107,6 +121,7 @@ class TrackerSession {
   Intrinsics intrinsics_;
   tf2::BufferCore& tf_;
   ThrottledLog log_;
+  SelfCheck self_check_;
 
   BuiltTracker object_;
   FrameBudget budget_{BudgetConfig()};

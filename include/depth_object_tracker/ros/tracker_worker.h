@@ -2,8 +2,10 @@
 // The tracker's thread: takes commands and the newest image from the inbox, runs the session, publishes.
 #pragma once
 
+#include "depth_object_tracker/ros/drop_watch.h"
 #include "depth_object_tracker/ros/result_publisher.h"
 #include "depth_object_tracker/ros/status_builder.h"
+#include "depth_object_tracker/ros/tracker_diagnostics.h"
 #include "depth_object_tracker/ros/tracker_session.h"
 
 #include <functional>
@@ -19,6 +21,10 @@ class TrackerWorker {
 
   TrackerWorker(const std::string& name, TrackerSession session, ResultPublisher publisher, double control_wait_s);
   ~TrackerWorker();
+
+  /// Who looks on after each status, on the worker's thread. Before start().
+  using Observer = std::function<void(const DiagnosticSnapshot&, const TrackerSession&)>;
+  void setObserver(Observer observer) { observer_ = std::move(observer); }
 
   void start();
 
@@ -42,6 +48,8 @@ class TrackerWorker {
   void handleFrame(const CameraFrame& frame);
   void waitForTwist(const CameraFrame& frame);
   void reportIdle();
+  void watchStamp(const ros::Time& stamp);
+  void tellObserver(const TrackerStatus& status) const;
   void publishStatus(const TrackerResult& result);
 
   ThrottledLog log_;
@@ -50,6 +58,10 @@ class TrackerWorker {
   std::chrono::duration<double> control_wait_;
   FrameInbox inbox_;
   FrameStatistics statistics_;
+  DropWatch drop_watch_;
+  Observer observer_;
+  std::optional<double> stamp_age_s_;
+  bool stamp_problem_told_ = false;
   Clock::time_point last_image_at_ = Clock::now();
   Clock::time_point last_status_at_ = Clock::now();
   bool announce_ = false;       // a command asked for a status

@@ -40,6 +40,10 @@ class ObjectTracker {
   /// reduced to its square root. See FrameBudget.
   void setEffort(double effort);
 
+  /// Takes over the parameters that may change between two images (listLiveParameters()); the others stay.
+  /// @throws std::invalid_argument, changing nothing, when one is out of range.
+  void setLiveParameters(const TrackerConfig& changed);
+
   /// Moves the estimate to the image's stamp.
   /// @param stamp_s seconds of the image's exposure; equal to the last one: ignored (counted); before it: see design,
   /// time jump.

@@ -12,6 +12,9 @@ class ResolutionChooser {
  public:
   explicit ResolutionChooser(const ResolutionConfig& config) : config_(config) {}
 
+  /// Chooses anew at the next image when something changed.
+  void setConfig(const ResolutionConfig& config);
+
   /// @param full_resolution_pixels that the object covers, > 0 when known; 0 keeps the last factor.
   /// @param share in (0, 1] of the pixels that are aimed at otherwise.
   int choose(double full_resolution_pixels, double share = 1.0);

@@ -14,6 +14,9 @@ class StatusMonitor {
  public:
   explicit StatusMonitor(const StatusConfig& config) : config_(config) {}
 
+  /// From the next image on.
+  void setConfig(const StatusConfig& config) { config_ = config; }
+
   /// A new initial pose, or a jump of time: INITIALIZING until the estimate fits.
   void restart();
   void reset() { state_ = TrackerState::kUninitialized; }
