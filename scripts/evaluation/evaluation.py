@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command from arguments to files."""
+import re
+import sys
+
+from . import EvaluationError, aggregate, command_line, programs, provenance, result_files, runs, terminal_table
+from .estimates import find_estimates
+from .find_scenes import find_scenes
+from .progress import Progress
+
+
+def choose_scenes(options):
+    scenes = find_scenes(options.folders, options.object_id)
+    if options.only:
+        scenes = [scene for scene in scenes if re.search(options.only, str(scene.folder))]
+    if not scenes:
+        raise EvaluationError("--only leaves no scene" if options.only else
+                              "no scene found: a scene is a folder with scene_camera.json (BOP format)")
+    return scenes
+
+
+def choose_program(options, source_folder):
+    if options.estimates:
+        return None
+    if options.program:
+        return programs.check_program(options.program)
+    return programs.find_program(programs.PEERS.get(options.peer, "track_sequence"), source_folder)
+
+
+def job_maker(options, program, num_scenes):
+    """Function (scene, truth) -> jobs."""
+    extra = (["--config", str(options.config)] if options.config else []) + options.passed
+
+    def existing(scene, _):
+        files = find_estimates(options.estimates, scene, num_scenes)
+        return [runs.Job(scene, path.stem, path) for path in files]
+
+    def fresh(scene, truth):
+        jobs = []
+        for seed in range(1, options.seeds + 1):
+            csv = options.output / "estimates" / scene.name / f"seed{seed}.csv"
+            command = runs.tracker_command(program, scene, seed, csv, extra, bool(truth.masks), bool(options.peer))
+            jobs.append(runs.Job(scene, f"seed{seed}", csv, command, options.timeout))
+        return jobs
+
+    return existing if options.estimates else fresh
+
+
+def evaluate(options, source_folder):
+    """Returns the number of runs that failed."""
+    scenes = choose_scenes(options)
+    program = choose_program(options, source_folder)
+    if options.config and not options.config.is_file():
+        raise EvaluationError(f"there is no configuration {options.config}")
+    options.output.mkdir(parents=True, exist_ok=True)
+    width = terminal_table.name_width(scenes)
+    progress = Progress()
+    summaries = []
+
+    def on_done(scene, outcomes, done, total):
+        if scene is not None:
+            summaries.append(aggregate.summarise_scene(scene, outcomes))
+            progress.clear()
+            print(terminal_table.scene_line(summaries[-1], width), flush=True)
+        progress.update(done, total)
+
+    print(terminal_table.header(width), flush=True)
+    outcomes = runs.execute_all(scenes, job_maker(options, program, len(scenes)), options.jobs, on_done)
+    progress.clear()
+    total = aggregate.summarise_all(summaries, outcomes)
+    print(terminal_table.overall_line(total, width))
+    made_with = provenance.describe(source_folder, program, options.config, options.jobs)
+    write_results(options.output, made_with, scenes, summaries, total, outcomes)
+    return report_failures(summaries)
+
+
+def write_results(output, made_with, scenes, summaries, total, outcomes):
+    result_files.write_csv(output / "summary.csv", summaries, total)
+    result_files.write_json(output / "summary.json", made_with, summaries, total)
+    for scene in scenes:
+        for outcome in outcomes[scene.name]:
+            if outcome.table:
+                folder = output / "frames" / scene.name
+                folder.mkdir(parents=True, exist_ok=True)
+                result_files.write_frames(folder / f"{outcome.job.label}.csv", outcome.table)
+
+
+def report_failures(summaries):
+    failures = 0
+    for summary in summaries:
+        for failure in summary["failures"]:
+            print(f"failed: {summary['scene']}, {failure['run']}: {failure['problem']}", file=sys.stderr)
+            failures += 1
+        if not summary["runs"]:
+            print(f"failed: {summary['scene']}: no estimates found", file=sys.stderr)
+            failures += 1
+    return failures
+
+
+def main(arguments, source_folder):
+    """Exit code: 0 done, 1 a run failed or input cannot be used, 2 usage."""
+    options = command_line.parse(arguments)
+    try:
+        failures = evaluate(options, source_folder)
+    except (EvaluationError, OSError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("error: interrupted", file=sys.stderr)
+        return 1
+    if failures:
+        print(f"error: {failures} run(s) failed", file=sys.stderr)
+    return 1 if failures else 0
