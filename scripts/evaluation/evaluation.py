@@ -3,7 +3,7 @@
 import re
 import sys
 
-from . import EvaluationError, aggregate, command_line, programs, provenance, result_files, runs, terminal_table
+from . import EvaluationError, aggregate, command_line, programs, provenance, results, runs, terminal_table
 from .estimates import find_estimates
 from .find_scenes import find_scenes
 from .progress import Progress
@@ -64,25 +64,16 @@ def evaluate(options, source_folder):
             print(terminal_table.scene_line(summaries[-1], width), flush=True)
         progress.update(done, total)
 
+    scorers = {scene.name: runs.SceneScorer(scene) for scene in scenes}
     print(terminal_table.header(width), flush=True)
-    outcomes = runs.execute_all(scenes, job_maker(options, program, len(scenes)), options.jobs, on_done)
+    outcomes = runs.execute_all(scenes, scorers, job_maker(options, program, len(scenes)), options.jobs, on_done)
     progress.clear()
     total = aggregate.summarise_all(summaries, outcomes)
     print(terminal_table.overall_line(total, width))
     made_with = provenance.describe(source_folder, program, options.config, options.jobs)
-    write_results(options.output, made_with, scenes, summaries, total, outcomes)
+    results.write(results.Results(options.output, made_with, scenes, scorers, outcomes, summaries, total))
+    print(f"report: {options.output / 'report.html'}")
     return report_failures(summaries)
-
-
-def write_results(output, made_with, scenes, summaries, total, outcomes):
-    result_files.write_csv(output / "summary.csv", summaries, total)
-    result_files.write_json(output / "summary.json", made_with, summaries, total)
-    for scene in scenes:
-        for outcome in outcomes[scene.name]:
-            if outcome.table:
-                folder = output / "frames" / scene.name
-                folder.mkdir(parents=True, exist_ok=True)
-                result_files.write_frames(folder / f"{outcome.job.label}.csv", outcome.table)
 
 
 def report_failures(summaries):

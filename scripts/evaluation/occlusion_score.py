@@ -4,6 +4,9 @@ import math
 
 import numpy as np
 
+from . import EvaluationError
+from .statistics import percentile
+
 OFF, OCCLUDED, VISIBLE = 0, 128, 255  # values of the true mask
 MAX_LAG = 15
 BINS = 509  # beliefs are multiples of 1/254, or 1/2 where there is none: twice the value is a whole number
@@ -61,18 +64,61 @@ class RocCounter:
         self.visible += other.visible
 
 
+class ReactionTimer:
+    """Frames from a pixel's change (an occluder comes over the object, or goes) until the belief is on the right side of
+    1/2. Only where masks of successive frames are there; pixels that change again before are left out."""
+
+    def __init__(self):
+        self._last = None  # (frame, mask)
+        self._waiting = {}  # value of the mask -> frames since the change, -1 where nothing is waited for
+        self._found = {OCCLUDED: [], VISIBLE: []}
+
+    def add(self, frame, mask, picture):
+        if self._last is None or frame != self._last[0] + 1:
+            self._waiting = {value: np.full(mask.shape, -1) for value in self._found}
+        else:
+            for value, other in ((OCCLUDED, VISIBLE), (VISIBLE, OCCLUDED)):
+                self._advance(value, (mask == value) & (self._last[1] == other), mask, picture)
+        self._last = (frame, mask)
+
+    def _advance(self, value, changed, mask, picture):
+        waiting = self._waiting[value]
+        waiting[waiting >= 0] += 1
+        waiting[mask != value] = -1
+        waiting[changed] = 0
+        if picture is None:
+            return
+        belief = twice_belief(picture)
+        right = (waiting >= 0) & (belief > 254 if value == OCCLUDED else belief < 254)
+        self._found[value].extend(waiting[right].tolist())
+        waiting[right] = -1
+
+    def frames(self, value, percent=90):
+        """Percentile over the pixels; NaN without any."""
+        return percentile(self._found[value], percent)
+
+
+def read_belief(folder, frame, mask):
+    """Estimated picture of a frame, None where there is none."""
+    path = folder / f"{frame:06d}.png"
+    if not path.is_file():
+        return None
+    picture = read_grey(path)
+    if picture.shape != mask.shape:
+        raise EvaluationError(f"{path} has {picture.shape[1]}x{picture.shape[0]} pixels, the mask of frame {frame} "
+                              f"{mask.shape[1]}x{mask.shape[0]}")
+    return picture
+
+
 def score_pictures(masks, folder):
-    """RocCounter over the frames with a mask. masks: {frame: source}; folder: of the estimated pictures."""
-    counter = RocCounter()
+    """(RocCounter, ReactionTimer) over the frames with a mask. masks: {frame: source}; folder: of the estimates."""
+    counter, timer = RocCounter(), ReactionTimer()
     for frame, source in sorted(masks.items()):
-        path = folder / f"{frame:06d}.png"
         mask = read_mask(source)
-        picture = read_grey(path) if path.is_file() else None
-        if picture is not None and picture.shape != mask.shape:
-            raise ValueError(f"{path} has {picture.shape[1]}x{picture.shape[0]} pixels, the mask of frame {frame} "
-                             f"{mask.shape[1]}x{mask.shape[0]}")
+        picture = read_belief(folder, frame, mask)
         counter.add(mask, picture)
-    return counter
+        timer.add(frame, mask, picture)
+    return counter, timer
 
 
 def share_lag(true_share, estimated_share):
@@ -80,10 +126,6 @@ def share_lag(true_share, estimated_share):
     constant offset apart. NaN when the true share hardly changes (standard deviation under 0.1) or is too short."""
     truth, estimate = np.asarray(true_share, float), np.asarray(estimated_share, float)
     length = len(truth) - MAX_LAG
-    if length < 2 * MAX_LAG or not np.all(np.isfinite(truth)) or np.std(truth) < 0.1:
+    if length < 2 * MAX_LAG or not np.all(np.isfinite(truth)) or np.std(truth) < 0.1 or not np.all(np.isfinite(estimate)):
         return math.nan
-    deviations = []
-    for lag in range(MAX_LAG + 1):
-        difference = estimate[lag:lag + length] - truth[:length]
-        deviations.append(np.nanstd(difference))
-    return float(np.argmin(deviations))
+    return float(np.argmin([np.std(estimate[lag:lag + length] - truth[:length]) for lag in range(MAX_LAG + 1)]))

@@ -36,6 +36,14 @@ def quaternion(R):
     return -q if q[0] < 0.0 else q
 
 
+def rotation_from_quaternion(q):
+    """Rotation (3x3) of a quaternion (w, x, y, z) of any length but 0."""
+    w, x, y, z = np.asarray(q, float) / np.linalg.norm(q)
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+
+
 def log_so3(R):
     """Rotation vector (3), angle in [0, pi]; inverse of exp_so3."""
     q = quaternion(R)

@@ -79,8 +79,8 @@ def _score(job, truth, meter):
     table = make_table(truth, run, meter)
     folder = occlusion_folder(job.csv)
     masks = {frame: mask for frame, mask in truth.masks.items() if frame in set(run.frames)}
-    roc = score_pictures(masks, folder) if masks and folder else None
-    figures = score_run(table, roc)
+    roc, timer = score_pictures(masks, folder) if masks and folder else (None, None)
+    figures = score_run(table, roc, timer)
     figures["scene_frames"] = len(truth.frames)
     return Outcome(job, figures, table, roc, machine=run.machine)
 
@@ -90,8 +90,8 @@ class SceneScorer:
 
     def __init__(self, scene):
         self.truth = load_truth(scene)
-        symmetries = load_symmetries(scene.models_info, scene.object_id, scene.mesh_scale)
-        self._meter = PoseErrorMeter(load_points(scene.mesh, scene.mesh_scale), symmetries)
+        self.symmetries = load_symmetries(scene.models_info, scene.object_id, scene.mesh_scale)
+        self._meter = PoseErrorMeter(load_points(scene.mesh, scene.mesh_scale), self.symmetries)
 
     def execute(self, job):
         """Never raises for what a run may do wrong: the Outcome says it."""
@@ -104,10 +104,9 @@ class SceneScorer:
             return Outcome(job, problem=str(error))
 
 
-def execute_all(scenes, make_jobs, num_jobs, on_done):
+def execute_all(scenes, scorers, make_jobs, num_jobs, on_done):
     """Runs make_jobs(scene, truth) of every scene, num_jobs at a time. Calls on_done(scene, outcomes, done, total) in the
-    order of the scenes, and on_done(None, None, done, total) after each run. Returns {scene name: [Outcome]}."""
-    scorers = {scene.name: SceneScorer(scene) for scene in scenes}
+    order of the scenes, and on_done(None, None, done, total) after each run. scorers, result: {scene name: ...}."""
     jobs = {scene.name: make_jobs(scene, scorers[scene.name].truth) for scene in scenes}
     total = sum(len(entries) for entries in jobs.values())
     results, done = {}, 0

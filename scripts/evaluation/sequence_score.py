@@ -127,16 +127,23 @@ def _motion(table):
     return {"jitter_mm": 1e3 * translation, "jitter_deg": math.degrees(rotation), "delay_frames": delay}
 
 
-def score_run(table, occlusion_counter):
-    """Flat dictionary of figures; occlusion_counter: RocCounter or None."""
+def _occlusion(table, roc, timer):
+    nothing = roc is None
+    return {"occlusion_roc": math.nan if nothing else roc.area(),
+            "occlusion_lag_frames": occlusion_score.share_lag(table.visible, table.estimated_visible),
+            "reaction_comes_frames": math.nan if nothing else timer.frames(occlusion_score.OCCLUDED),
+            "reaction_goes_frames": math.nan if nothing else timer.frames(occlusion_score.VISIBLE)}
+
+
+def score_run(table, roc=None, timer=None):
+    """Flat dictionary of figures; roc, timer: what occlusion_score.score_pictures gives, None without pictures."""
     figures = {"frames": len(table.frames), "judged_frames": int(table.judged.sum()),
                "error_kind": "ADD-S" if table.symmetric else "ADD"}
     figures.update(_accuracy(table, table.judged, ""))
     figures.update(_accuracy(table, np.isfinite(table.error), "all_"))
     figures.update(_losses(table))
     figures.update(_calibration(table))
-    figures["occlusion_roc"] = occlusion_counter.area() if occlusion_counter else math.nan
-    figures["occlusion_lag_frames"] = occlusion_score.share_lag(table.visible, table.estimated_visible)
+    figures.update(_occlusion(table, roc, timer))
     figures.update(_states(table))
     figures.update(_motion(table))
     figures["time_ms_median"] = 1e3 * percentile(table.times_s, 50)

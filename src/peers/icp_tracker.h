@@ -11,7 +11,7 @@ namespace depth_object_tracker {
 struct IcpConfig {
   std::size_t num_model_points = 800;
   /// Largest distance of corresponding points, from stage to stage [m]; the visible surface is chosen anew for each.
-  std::vector<double> max_distances_m{0.03, 0.015, 0.006};
+  std::vector<double> max_distances_m{0.06, 0.03, 0.015, 0.006};
   int iterations_per_stage = 10;
   double max_normal_angle_rad = 0.7;     ///< between corresponding normals
   double crop_margin_m = 0.05;           ///< of the measured cloud, around the object's bounding sphere
