@@ -13,13 +13,20 @@ if(NOT PCL_FOUND)
   return()
 endif()
 
-# add_peer(NAME SOURCES...): a program with track_sequence's arguments.
-function(add_peer name)
-  add_executable(${name} src/peers/peer_run.cpp src/peers/${name}.cpp ${ARGN})
-  target_link_libraries(${name} PRIVATE depth_object_tracker_tools depth_object_tracker_warnings PkgConfig::PCL)
+add_executable(track_icp
+  src/peers/icp_tracker.cpp
+  src/peers/peer_run.cpp
+  src/peers/track_icp.cpp
+  src/peers/visible_surface.cpp
+)
+add_executable(track_pcl
+  src/peers/mesh_samples.cpp
+  src/peers/particle_filter_tracker.cpp
+  src/peers/peer_run.cpp
+  src/peers/track_pcl.cpp
+)
+foreach(peer track_icp track_pcl)
+  target_link_libraries(${peer} PRIVATE depth_object_tracker_tools depth_object_tracker_warnings PkgConfig::PCL)
   # gcc 12 takes Eigen's cross products of float vectors, inlined from PCL's headers, for reads out of bounds.
-  target_compile_options(${name} PRIVATE -Wno-array-bounds)
-endfunction()
-
-add_peer(track_icp src/peers/icp_tracker.cpp src/peers/visible_surface.cpp)
-add_peer(track_pcl src/peers/mesh_samples.cpp src/peers/particle_filter_tracker.cpp)
+  target_compile_options(${peer} PRIVATE -Wno-array-bounds)
+endforeach()

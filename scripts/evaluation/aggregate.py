@@ -11,7 +11,7 @@ from .statistics import accuracy_curve, finite
 
 TEXT = ("error_kind",)
 HIGHER_IS_BETTER = ("auc", "all_auc", "within", "all_within", "inside95", "rank", "occlusion_roc", "judged_frames")
-THRESHOLDS_M = np.linspace(0.0, 0.1, 201)
+THRESHOLDS_M = np.geomspace(1e-4, 0.1, 121)
 
 
 def _median(values):

@@ -37,6 +37,9 @@ def parse(arguments):
     parser.add_argument("--only", metavar="REGEX", help="only scenes whose folder matches")
     parser.add_argument("--object-id", metavar="N", type=_positive,
                         help="object to track in scenes with several (default: 1 in a scene with its own mesh, else all)")
+    parser.add_argument("--models", metavar="DIR", type=pathlib.Path,
+                        help="folder of the meshes (BOP: obj_000001.ply; YCBInEOAT: 021_bleach_cleanser/textured_simple.obj; "
+                             "default: where the data set keeps them)")
     parser.add_argument("--timeout", metavar="S", type=float, default=900.0, help="longest time of one run [s] (default 900)")
     options = parser.parse_args(own)
     options.passed = passed

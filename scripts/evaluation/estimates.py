@@ -109,19 +109,24 @@ def occlusion_folder(csv_path):
 
 
 def find_estimates(folder, scene, num_scenes):
-    """CSV files below the folder that belong to a scene: named SCENE.csv, SCENE_*.csv or PARENT_SCENE*.csv, or in a folder
-    named SCENE; where there is only one scene, every CSV there is; else BOP result files (METHOD_DATASET-SPLIT.csv)."""
+    """CSV files below the folder that belong to a scene: in a folder named as the scene is here (what evaluate writes), in
+    one named as the scene's folder, named SCENE.csv, SCENE_1.csv, SCENE_seed1.csv or PARENT_SCENE....csv; where there is
+    only one scene, every CSV; else BOP result files (METHOD_DATASET-SPLIT....csv)."""
     folder = pathlib.Path(folder)
     if not folder.is_dir():
         raise EvaluationError(f"there is no folder {folder} (--estimates)")
     files = [path for path in sorted(folder.rglob("*.csv")) if _is_result(path)]
-    last, parent = re.escape(pathlib.PurePath(scene.name).name), re.escape(scene.folder.parent.name)
-    pattern = re.compile(rf"(?:{parent}[_-])?{last}(?:[_.-](?:seed)?[_-]?\w*)?")
-    by_folder = [path for path in files if path.relative_to(folder).parent.as_posix().endswith(scene.name)]
-    by_last = [path for path in files if re.fullmatch(last, path.parent.name) and path.parent != folder]
-    by_name = [path for path in files if pattern.fullmatch(path.stem)]
-    found = by_folder or by_last or by_name or (files if num_scenes == 1 else [])
-    return found or [path for path in files if path.stem.endswith(("-test", "-train", "-val"))]
+    last, parent = re.escape(scene.folder.name), re.escape(scene.folder.parent.name)
+    name = re.compile(rf"(?:{parent}[_-])?{last}(?:[_.-](?:seed)?_?\d+)?")
+    for belongs in (lambda path: ("/" + path.parent.relative_to(folder).as_posix()).endswith("/" + scene.name),
+                    lambda path: path.parent != folder and path.parent.name == scene.folder.name,
+                    lambda path: name.fullmatch(path.stem),
+                    lambda path: num_scenes == 1,
+                    lambda path: re.match(r"[^_]+_[^_]+-(test|train|val)", path.stem)):
+        found = [path for path in files if belongs(path)]
+        if found:
+            return found
+    return []
 
 
 def _is_result(path):

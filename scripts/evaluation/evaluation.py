@@ -3,19 +3,21 @@
 import re
 import sys
 
-from . import EvaluationError, aggregate, command_line, programs, provenance, results, runs, terminal_table
+from . import EvaluationError, aggregate, bop_results, command_line, programs, provenance, results, runs, terminal_table
 from .estimates import find_estimates
 from .find_scenes import find_scenes
 from .progress import Progress
 
 
 def choose_scenes(options):
-    scenes = find_scenes(options.folders, options.object_id)
-    if options.only:
-        scenes = [scene for scene in scenes if re.search(options.only, str(scene.folder))]
+    try:
+        pattern = re.compile(options.only or "")
+    except re.error as error:
+        raise EvaluationError(f"--only {options.only} is not a regular expression: {error}") from error
+    scenes = find_scenes(options.folders, options.output / "scenes", options.object_id, options.models, pattern.search)
     if not scenes:
-        raise EvaluationError("--only leaves no scene" if options.only else
-                              "no scene found: a scene is a folder with scene_camera.json (BOP format)")
+        raise EvaluationError("no scene found: a scene is a folder with scene_camera.json (BOP format), or a video of YCBInEOAT"
+                              + (f"; --only {options.only} may leave none" if options.only else ""))
     return scenes
 
 
@@ -72,6 +74,7 @@ def evaluate(options, source_folder):
     print(terminal_table.overall_line(total, width))
     made_with = provenance.describe(source_folder, program, options.config, options.jobs)
     results.write(results.Results(options.output, made_with, scenes, scorers, outcomes, summaries, total))
+    bop_results.write(options.output / "bop", program.name if program else "estimates", scenes, outcomes)
     print(f"report: {options.output / 'report.html'}")
     return report_failures(summaries)
 

@@ -3,6 +3,7 @@
 import os
 import pathlib
 import shutil
+import sys
 
 from . import EvaluationError
 
@@ -10,9 +11,9 @@ PEERS = {"icp": "track_icp", "pcl": "track_pcl"}
 
 
 def find_program(name, source_folder):
-    """Beside this script when installed, in build/ of the source tree, in the sourced catkin workspaces, on the PATH."""
+    """Beside the command as it was called or installed, in build/ of the source tree, in the sourced catkin workspaces, on the PATH."""
     workspaces = [pathlib.Path(prefix) for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":") if prefix]
-    candidates = [source_folder / name]
+    candidates = [pathlib.Path(sys.argv[0]).absolute().parent / name, source_folder / name]
     candidates += [source_folder.parent / "build" / place / name for place in ("", "devel/lib/depth_object_tracker")]
     candidates += [prefix / "lib/depth_object_tracker" / name for prefix in workspaces]
     candidates += [pathlib.Path(found) for found in [shutil.which(name)] if found]

@@ -23,7 +23,8 @@ class Scene:
     mesh_scale: float = 1.0
     models_info: pathlib.Path = None
     init: pathlib.Path = None  # first pose; None: the first ground truth
-    data_set: str = ""  # in BOP's sense: the folder above
+    data_set: str = ""  # in BOP's sense
+    split: str = "test"
 
 
 @dataclasses.dataclass

@@ -18,6 +18,7 @@ class FrameTable:
     stamps: np.ndarray
     true_poses: list  # None where there is no truth
     poses: list
+    scores: np.ndarray
     states: list
     visible: np.ndarray  # true share, NaN where unknown
     estimated_visible: np.ndarray
@@ -67,7 +68,7 @@ def make_table(truth, run, meter):
             columns["nees"][k], columns["dof"][k] = meter.nees(run.poses[k], run.covariances[k], T_truth)
     return FrameTable(
         frames=run.frames, stamps=np.array([truth.stamps.get(f, math.nan) for f in run.frames], float),
-        true_poses=true_poses, poses=run.poses, states=run.states,
+        true_poses=true_poses, poses=run.poses, scores=run.scores, states=run.states,
         visible=np.array([truth.visible.get(f, math.nan) for f in run.frames], float),
         estimated_visible=run.visible if run.visible is not None else np.full(n, math.nan), times_s=run.times_s,
         translation=np.linalg.norm(vectors[:, :3], axis=1), rotation=np.linalg.norm(vectors[:, 3:], axis=1),
