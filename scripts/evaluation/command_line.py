@@ -3,9 +3,11 @@
 import argparse
 import pathlib
 
+from .terminal_table import LEGEND
+
 DESCRIPTION = """Runs track_sequence over every scene folder (BOP format) below the given folders, with several seeds, and scores
 the estimates against the ground truth. Writes summary.csv, summary.json, report.html and plots."""
-EPILOG = "Everything after -- goes to the tracker program, e.g. `-- --stride 3`."
+EPILOG = "Everything after -- goes to the tracker program, e.g. `-- --stride 3`.\n\n" + LEGEND
 
 
 def _positive(text):
@@ -20,7 +22,8 @@ def parse(arguments):
     if "--" in own:
         passed = own[own.index("--") + 1:]
         own = own[:own.index("--")]
-    parser = argparse.ArgumentParser(prog="evaluate", description=DESCRIPTION, epilog=EPILOG)
+    parser = argparse.ArgumentParser(prog="evaluate", description=DESCRIPTION, epilog=EPILOG,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", metavar="DIR", nargs="+", type=pathlib.Path,
                         help="a scene folder, or a folder that holds such at any depth")
     parser.add_argument("--output", metavar="DIR", type=pathlib.Path, required=True, help="folder for all results")

@@ -3,7 +3,7 @@
 import re
 import sys
 
-from . import EvaluationError, aggregate, bop_results, command_line, programs, provenance, results, runs, terminal_table
+from . import EvaluationError, aggregate, bop_results, command_line, programs, provenance, runs, terminal_table
 from .estimates import find_estimates
 from .find_scenes import find_scenes
 from .progress import Progress
@@ -48,13 +48,8 @@ def job_maker(options, program, num_scenes):
     return existing if options.estimates else fresh
 
 
-def evaluate(options, source_folder):
-    """Returns the number of runs that failed."""
-    scenes = choose_scenes(options)
-    program = choose_program(options, source_folder)
-    if options.config and not options.config.is_file():
-        raise EvaluationError(f"there is no configuration {options.config}")
-    options.output.mkdir(parents=True, exist_ok=True)
+def run_and_print(options, scenes, scorers, program):
+    """(outcomes by scene name, summaries in order); prints a line for each scene when it is done."""
     width = terminal_table.name_width(scenes)
     progress = Progress()
     summaries = []
@@ -64,14 +59,28 @@ def evaluate(options, source_folder):
             summaries.append(aggregate.summarise_scene(scene, outcomes))
             progress.clear()
             print(terminal_table.scene_line(summaries[-1], width), flush=True)
-        progress.update(done, total)
+        if done < total:
+            progress.update(done, total)
 
-    scorers = {scene.name: runs.SceneScorer(scene) for scene in scenes}
     print(terminal_table.header(width), flush=True)
     outcomes = runs.execute_all(scenes, scorers, job_maker(options, program, len(scenes)), options.jobs, on_done)
-    progress.clear()
+    return outcomes, summaries
+
+
+def evaluate(options, source_folder):
+    """Returns the number of runs that failed."""
+    scenes = choose_scenes(options)
+    program = choose_program(options, source_folder)
+    if options.config and not options.config.is_file():
+        raise EvaluationError(f"there is no configuration {options.config}")
+    options.output.mkdir(parents=True, exist_ok=True)
+    scorers = {scene.name: runs.SceneScorer(scene) for scene in scenes}
+    outcomes, summaries = run_and_print(options, scenes, scorers, program)
     total = aggregate.summarise_all(summaries, outcomes)
-    print(terminal_table.overall_line(total, width))
+    print(terminal_table.overall_line(total, terminal_table.name_width(scenes)), flush=True)
+
+    from . import results  # here: matplotlib takes its time, and mistakes in the arguments shall show at once
+
     made_with = provenance.describe(source_folder, program, options.config, options.jobs)
     results.write(results.Results(options.output, made_with, scenes, scorers, outcomes, summaries, total))
     bop_results.write(options.output / "bop", program.name if program else "estimates", scenes, outcomes)

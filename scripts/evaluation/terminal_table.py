@@ -7,7 +7,8 @@ from .state_confusion import TRUE_STATES, right_share
 COLUMNS = ["error", "median", "95%", "max", "AUC", "lost/runs", "frames", "recover", "in95%", "NEES/dof", "ROC", "T/O/L right%",
            "ms", "p99"]
 WIDTHS = [5, 7, 7, 7, 6, 9, 6, 7, 5, 8, 5, 12, 5, 6]
-LEGEND = """error: ADD, or ADD-S for symmetric objects [mm], over frames with at least 10 % of the object in sight; median over the
+LEGEND = """columns of the table:
+error: ADD, or ADD-S for symmetric objects [mm], over frames with at least 10 % of the object in sight; median over the
 seeds (max, lost frames, recovery: the worst); AUC to 10 cm; lost/runs: runs with a loss (over 5 cm for more than 15 frames);
 recover: seen frames until under 2 cm after a full occlusion; in95%: truth inside the 95 % region; T/O/L right%: frames said
 to be TRACKING/OCCLUDED/LOST of those that are; ms: time per frame."""
@@ -18,6 +19,8 @@ def _number(value, digits):
         return "-"
     if math.isinf(value):
         return "never"
+    if abs(value) >= 1e5:
+        return f"{value:.1e}"
     return f"{value:.{digits}f}"
 
 

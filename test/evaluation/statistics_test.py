@@ -33,6 +33,8 @@ class Statistics(unittest.TestCase):
         self.assertAlmostEqual(rank_correlation([1, 2, 3, 4], [1, 8, 27, 64]), 1.0)
         self.assertAlmostEqual(rank_correlation([1, 2, 3, 4], [4, 3, 2, 1]), -1.0)
         self.assertAlmostEqual(rank_correlation([1, 2, 3, 4, 5], [2, 1, 4, 3, 5]), 0.8)  # 1 - 6 * 4 / (5 * 24)
+        # Ties share ranks: 1.5, 1.5, 3 against 1, 2, 3.
+        self.assertAlmostEqual(rank_correlation([5, 5, 7], [1, 2, 3]), 1.5 / math.sqrt(1.5 * 2.0))
         self.assertTrue(math.isnan(rank_correlation([1, 1, 1], [1, 2, 3])))
         self.assertTrue(math.isnan(rank_correlation([1, 2], [1, 2])))
 
