@@ -5,7 +5,6 @@ import math
 import numpy as np
 
 from . import EvaluationError
-from .statistics import percentile
 
 OFF, OCCLUDED, VISIBLE = 0, 128, 255  # values of the true mask
 MAX_LAG = 15
@@ -66,7 +65,10 @@ class RocCounter:
 
 class ReactionTimer:
     """Frames from a pixel's change (an occluder comes over the object, or goes) until the belief is on the right side of
-    1/2. Only where masks of successive frames are there; pixels that change again before are left out."""
+    1/2. Only where masks of successive frames are there. Pixels still wrong after MAX_WAIT frames count as never right;
+    those that change again before are left out."""
+
+    MAX_WAIT = 10
 
     def __init__(self):
         self._last = None  # (frame, mask)
@@ -92,10 +94,14 @@ class ReactionTimer:
         right = (waiting >= 0) & (belief > 254 if value == OCCLUDED else belief < 254)
         self._found[value].extend(waiting[right].tolist())
         waiting[right] = -1
+        never = waiting >= self.MAX_WAIT
+        self._found[value].extend([math.inf] * int(never.sum()))
+        waiting[never] = -1
 
     def frames(self, value, percent=90):
-        """Percentile over the pixels; NaN without any."""
-        return percentile(self._found[value], percent)
+        """Frames within which so many percent of the pixels reacted; NaN without any pixel."""
+        found = sorted(self._found[value])
+        return float(found[max(math.ceil(percent / 100 * len(found)), 1) - 1]) if found else math.nan
 
 
 def read_belief(folder, frame, mask):

@@ -116,7 +116,8 @@ class TrackSequence(EvaluateTest):
     def test_agrees_with_the_programs_own_summary(self):
         scene = self.folder / "scene"
         mesh = os.path.join(os.path.dirname(__file__), "../../meshes/drill.obj")
-        subprocess.run([os.environ["SIMULATE_SCENE"], scene, "--object", mesh, "--frames", "25", "--occluders", "passing"],
+        subprocess.run([os.environ["SIMULATE_SCENE"], scene, "--object", mesh, "--frames", "25", "--occluders", "passing",
+                        "--occlusion-every", "1"],
                        check=True, capture_output=True)
         done = self.evaluate(scene, "--program", os.environ["TRACK_SEQUENCE"])
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -129,6 +130,7 @@ class TrackSequence(EvaluateTest):
         inside = float(re.search(r"95 % region: (\S+) %", log).group(1))
         self.assertAlmostEqual(100 * figures["inside95"], inside, delta=0.051)
         self.assertGreater(figures["occlusion_roc"], 0.8)
+        self.assertGreaterEqual(figures["reaction_comes_frames"], 0)  # there are masks of successive frames
 
 
 if __name__ == "__main__":

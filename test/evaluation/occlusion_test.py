@@ -96,6 +96,14 @@ class Reaction(unittest.TestCase):
         self.assertEqual(timer.frames(OCCLUDED), 2)
         self.assertEqual(timer.frames(VISIBLE), 0)
 
+    def test_pixels_that_stay_wrong_count_as_never(self):
+        timer = ReactionTimer()
+        timer.add(0, mask(VISIBLE, VISIBLE), picture(0.1, 0.1))
+        for frame in range(1, 15):
+            timer.add(frame, mask(OCCLUDED, OCCLUDED), picture(0.9, 0.1))
+        self.assertEqual(timer.frames(OCCLUDED, percent=50), 0)
+        self.assertEqual(timer.frames(OCCLUDED), math.inf)
+
     def test_needs_successive_frames(self):
         timer = ReactionTimer()
         timer.add(0, mask(VISIBLE), picture(0.1))
