@@ -8,6 +8,7 @@
 #include <pcl/features/integral_image_normal.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
+#include <pcl/registration/correspondence_rejection_surface_normal.h>
 #include <pcl/registration/icp.h>
 
 #include <algorithm>
@@ -113,10 +114,14 @@ double IcpTracker::align(const Cloud::Ptr& measured, const PinholeCamera& camera
     model->push_back(point);
   }
 
+  const pcl::registration::CorrespondenceRejectorSurfaceNormal::Ptr same_side(
+      new pcl::registration::CorrespondenceRejectorSurfaceNormal);
+  same_side->setThreshold(config_.min_normal_cosine);
   pcl::IterativeClosestPointWithNormals<pcl::PointNormal, pcl::PointNormal> icp;
   icp.setUseSymmetricObjective(true);
   icp.setInputSource(model);
   icp.setInputTarget(measured);
+  icp.addCorrespondenceRejector(same_side);
   icp.setMaxCorrespondenceDistance(max_distance_m);
   icp.setMaximumIterations(config_.iterations_per_stage);
   icp.setTransformationEpsilon(1e-10);

@@ -14,6 +14,7 @@ struct IcpConfig {
   /// Largest distance of corresponding points, from stage to stage [m]; the visible surface is chosen anew for each.
   std::vector<double> max_distances_m{0.06, 0.03, 0.015, 0.006};
   int iterations_per_stage = 10;
+  double min_normal_cosine = 0.77;       ///< of the angle between corresponding normals
   double crop_margin_m = 0.05;           ///< of the measured cloud, around the object's bounding sphere
   double max_depth_step = 0.02;          ///< relative; no normal across larger steps
   float normal_smoothing_px = 8.0f;      ///< window of the measured normals
