@@ -15,8 +15,12 @@ if(WITH_ROS)
   endif()
   install(TARGETS demo_monitor pose_marker scene_to_bag simulate_scene simulator_node track_sequence tracker_node
     RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-  catkin_install_python(PROGRAMS scripts/benchmark_sequences scripts/plot_benchmark scripts/play_bag
+  catkin_install_python(PROGRAMS scripts/evaluate scripts/plot_benchmark scripts/play_bag
     DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  install(DIRECTORY scripts/evaluation DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION} FILES_MATCHING PATTERN *.py)
+  if(TARGET track_icp)
+    install(TARGETS track_icp track_pcl RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  endif()
   install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
   install(DIRECTORY config launch meshes rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 else()
@@ -31,7 +35,11 @@ else()
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  install(PROGRAMS scripts/benchmark_sequences scripts/plot_benchmark DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(PROGRAMS scripts/evaluate scripts/plot_benchmark DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(DIRECTORY scripts/evaluation DESTINATION ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME} FILES_MATCHING PATTERN *.py)
+  if(TARGET track_icp)
+    install(TARGETS track_icp track_pcl RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  endif()
   install(DIRECTORY include/${PROJECT_NAME} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} PATTERN ros EXCLUDE PATTERN rviz EXCLUDE)
   install(DIRECTORY config meshes DESTINATION ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME})
 endif()

@@ -10,6 +10,7 @@ add_library(depth_object_tracker_tools SHARED
   src/tools/pose_error.cpp
   src/tools/progress_bar.cpp
   src/tools/scene_pictures.cpp
+  src/tools/sequence_inputs.cpp
   src/tools/sequence_run.cpp
   src/tools/sequence_summary.cpp
   src/tools/trace_writer.cpp

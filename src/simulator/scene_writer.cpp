@@ -15,7 +15,6 @@ namespace depth_object_tracker {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr int kOcclusionEvery = 10;
 constexpr int kObjectId = 1;
 
 double roundedTo(double value, double unit) {
@@ -83,7 +82,7 @@ void writePicture(const std::string& path, const PinholeCamera& camera, const st
 class SceneWriter::Implementation {
  public:
   Implementation(const std::string& folder, const ObjectModel& object, const PinholeCamera& camera,
-                 const Pose& T_camera_object_init);
+                 const Pose& T_camera_object_init, int occlusion_every);
   void add(const SimulatedFrame& frame);
   void finish();
 
@@ -95,6 +94,7 @@ class SceneWriter::Implementation {
 
   std::filesystem::path folder_;
   PinholeCamera camera_;
+  int occlusion_every_;
   int num_frames_ = 0;
   Json scene_camera_ = Json::object(), scene_gt_ = Json::object(), scene_control_ = Json::object();
   std::string visibility_ = "frame,object_pixels_unoccluded,object_pixels_visible,fraction_visible\n";
@@ -102,8 +102,9 @@ class SceneWriter::Implementation {
 };
 
 SceneWriter::Implementation::Implementation(const std::string& folder, const ObjectModel& object,
-                                            const PinholeCamera& camera, const Pose& T_camera_object_init)
-    : folder_(folder), camera_(camera) {
+                                            const PinholeCamera& camera, const Pose& T_camera_object_init,
+                                            int occlusion_every)
+    : folder_(folder), camera_(camera), occlusion_every_(occlusion_every) {
   std::error_code error;
   for (const char* part : {"depth", "occlusion"}) {
     std::filesystem::create_directories(folder_ / part, error);
@@ -131,7 +132,7 @@ void SceneWriter::Implementation::writeMesh(const TriangleMesh& mesh) const {
 
 void SceneWriter::Implementation::add(const SimulatedFrame& frame) {
   writePicture(numbered(folder_ / "depth", num_frames_), camera_, frame.depth_mm);
-  if (num_frames_ % kOcclusionEvery == 0) {
+  if (num_frames_ % occlusion_every_ == 0) {
     writePicture(numbered(folder_ / "occlusion", num_frames_), camera_, frame.occlusion);
   }
   const std::string key = std::to_string(num_frames_);
@@ -167,8 +168,9 @@ void SceneWriter::Implementation::finish() {
 }
 
 SceneWriter::SceneWriter(const std::string& folder, const ObjectModel& object, const PinholeCamera& camera,
-                         const Pose& T_camera_object_init)
-    : implementation_(std::make_unique<Implementation>(folder, object, camera, T_camera_object_init)) {}
+                         const Pose& T_camera_object_init, int occlusion_every)
+    : implementation_(std::make_unique<Implementation>(folder, object, camera, T_camera_object_init, occlusion_every)) {
+}
 SceneWriter::~SceneWriter() = default;
 void SceneWriter::add(const SimulatedFrame& frame) {
   implementation_->add(frame);

@@ -27,6 +27,7 @@ struct Options {
   std::uint64_t seed = 1;
   double init_error_m = 0.005;
   double init_error_deg = 4.0;
+  int occlusion_every = 10;
 };
 
 // The folder above `file` whose package.xml carries the name; "" when there is none. Works without ROS.
@@ -66,6 +67,9 @@ void addOptions(CLI::App& app, Options& options) {
   app.add_option("--seed", options.seed)->capture_default_str();
   app.add_option("--init-error-m", options.init_error_m, "error of init.json [m]")->capture_default_str();
   app.add_option("--init-error-deg", options.init_error_deg, "error of init.json [degrees]")->capture_default_str();
+  app.add_option("--occlusion-every", options.occlusion_every, "a true mask for every so many frames")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
 }
 
 void run(const Options& options) {
@@ -79,7 +83,7 @@ void run(const Options& options) {
   const auto begin = std::chrono::steady_clock::now();
   dot::SceneSimulator simulator(object.mesh, config);
   const dot::Pose init = simulator.roughInitialPose(options.init_error_m, options.init_error_deg * M_PI / 180.0);
-  dot::SceneWriter writer(options.output, object, config.camera, init);
+  dot::SceneWriter writer(options.output, object, config.camera, init, options.occlusion_every);
   dot::RandomSource random(options.seed, 1);
   // Two stamps never change places.
   const double jitter_s = std::min(options.stamp_jitter_s, 0.45 / options.fps);

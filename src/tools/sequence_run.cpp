@@ -2,13 +2,13 @@
 // Runs the tracker over a scene folder and writes what it says.
 #include "depth_object_tracker/tools/sequence_run.h"
 
-#include "depth_object_tracker/tools/bop_models_info.h"
 #include "depth_object_tracker/tools/bop_scene.h"
 #include "depth_object_tracker/tools/estimate_csv.h"
 #include "depth_object_tracker/tools/input_error.h"
 #include "depth_object_tracker/tools/occlusion_picture.h"
 #include "depth_object_tracker/tools/progress_bar.h"
 #include "depth_object_tracker/tools/scene_pictures.h"
+#include "depth_object_tracker/tools/sequence_inputs.h"
 #include "depth_object_tracker/tools/sequence_summary.h"
 #include "depth_object_tracker/tools/trace_writer.h"
 #include "depth_object_tracker/tracker/object_tracker.h"
@@ -22,36 +22,6 @@ namespace depth_object_tracker {
 namespace {
 
 namespace fs = std::filesystem;
-
-void warn(const std::string& message) {
-  std::cerr << "warning: " << message << std::endl;
-}
-
-Symmetries readSymmetries(const TrackSequenceOptions& options) {
-  const std::string by_default = (fs::path(options.scene) / "models_info.json").string();
-  if (options.models_info.empty() && !fs::exists(by_default)) return {};
-  const std::string file = options.models_info.empty() ? by_default : options.models_info;
-  const std::optional<Symmetries> symmetries = loadBopSymmetries(file, options.object_id, options.mesh_scale);
-  if (!symmetries)
-    warn(file + " has no entry \"" + std::to_string(options.object_id) + "\": no symmetries (see --object-id)");
-  return symmetries.value_or(Symmetries{});
-}
-
-ObjectModel loadObjectModel(const TrackSequenceOptions& options) {
-  ObjectDescription description;
-  description.name = fs::path(options.mesh).stem().string();
-  description.mesh = options.mesh;
-  description.mesh_scale = options.mesh_scale;
-  description.symmetries = readSymmetries(options);
-  return loadObject(description);
-}
-
-Pose chooseInitialPose(const TrackSequenceOptions& options, const BopScene& scene) {
-  if (!options.init.empty()) return loadPoseFile(options.init);
-  if (scene.first_truth) return *scene.first_truth;
-  throw InputError("no initial pose: give --init FILE.json, or scene_gt.json with object " +
-                   std::to_string(options.object_id) + " in " + scene.folder);
-}
 
 /// Everything that one run writes.
 class RunOutputs {
@@ -104,7 +74,7 @@ TrackerResult updateTimed(ObjectTracker& tracker, const DepthPicture& picture, c
 
 void trackFrames(const std::vector<SceneFrame>& frames, ObjectTracker& tracker, const Pose& initial_pose,
                  RunOutputs& outputs, const PoseErrorMeter& meter, SequenceSummary& summary) {
-  ScenePictures pictures(frames, warn);
+  ScenePictures pictures(frames, warnUser);
   ProgressBar progress(frames.size());
   Pose last_pose = initial_pose;
   for (std::size_t k = 0; k < frames.size(); ++k) {
@@ -124,8 +94,8 @@ void trackFrames(const std::vector<SceneFrame>& frames, ObjectTracker& tracker, 
     progress.update(k + 1);
   }
   if (pictures.numMissing() == 0) return;
-  warn(std::to_string(pictures.numMissing()) + " of " + std::to_string(frames.size()) +
-       " frames have no depth picture");
+  warnUser(std::to_string(pictures.numMissing()) + " of " + std::to_string(frames.size()) +
+           " frames have no depth picture");
 }
 
 }  // namespace
@@ -133,7 +103,7 @@ void trackFrames(const std::vector<SceneFrame>& frames, ObjectTracker& tracker, 
 void runSequence(const TrackSequenceOptions& options) {
   const TrackerConfig config = makeTrackerConfig(options);
   const BopScene scene = loadBopScene(options.scene, {options.object_id, options.fps, !options.no_control});
-  for (const std::string& warning : scene.warnings) warn(warning);
+  for (const std::string& warning : scene.warnings) warnUser(warning);
   const Pose initial_pose = chooseInitialPose(options, scene);
 
   ObjectTracker tracker(loadObjectModel(options), config);

@@ -14,9 +14,10 @@ namespace depth_object_tracker {
 class SceneWriter {
  public:
   /// Creates the folder and its mesh.obj, models_info.json and init.json.
+  /// @param occlusion_every a mask in occlusion/ for every so many frames, >= 1
   /// @throws std::runtime_error naming the path that cannot be written.
   SceneWriter(const std::string& folder, const ObjectModel& object, const PinholeCamera& camera,
-              const Pose& T_camera_object_init);
+              const Pose& T_camera_object_init, int occlusion_every = 10);
   ~SceneWriter();
 
   /// @throws std::runtime_error

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the figures were made with: commit, machine, configuration, command."""
+import datetime
+import os
+import pathlib
+import platform
+import re
+import shlex
+import subprocess
+import sys
+
+import numpy
+
+
+def _git(folder, *arguments):
+    try:
+        finished = subprocess.run(["git", "-C", str(folder), *arguments], capture_output=True, text=True, check=False)
+    except OSError:
+        return ""
+    return finished.stdout.strip() if finished.returncode == 0 else ""
+
+
+def commit(folder):
+    """Commit of the source tree that holds the folder, "+" appended where tracked files differ; empty elsewhere."""
+    name = _git(folder, "rev-parse", "--short=12", "HEAD")
+    if not name:
+        return ""
+    return name + ("+" if _git(folder, "status", "--porcelain", "--untracked-files=no") else "")
+
+
+def processor():
+    try:
+        found = re.search(r"model name\s*:\s*(.+)", pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8"))
+    except OSError:
+        found = None
+    return found.group(1).strip() if found else platform.processor() or platform.machine()
+
+
+def describe(source_folder, program, config, num_jobs):
+    """Flat dictionary of strings."""
+    return {
+        "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC"),
+        "commit": commit(source_folder) or "unknown (not run from a source tree)",
+        "command": " ".join(shlex.quote(argument) for argument in sys.argv),
+        "program": str(program or "none: existing estimates"),
+        "configuration": config.read_text(encoding="utf-8") if config else "the program's defaults",
+        "processor": f"{processor()}, {os.cpu_count()} cores" + (
+            f" ({num_jobs} runs at a time: times are not those of an idle machine)" if num_jobs > 1 else ""),
+        "load": ", ".join(f"{x:.1f}" for x in os.getloadavg()) + " (1, 5 and 15 minutes) at the end",
+        "system": f"{platform.system()} {platform.release()}, Python {platform.python_version()}, numpy {numpy.__version__}",
+    }

@@ -1,0 +1,19 @@
+# Tests of the command evaluate, one per Python file. They want Debian's python3, which has numpy, scipy and matplotlib.
+set(EVALUATION_PYTHON /usr/bin/python3 CACHE FILEPATH "Python that runs the tests of evaluate")
+set(EVALUATION_TESTS
+  aggregate bop_layout calibration command episodes estimates mesh_points motion_quality occlusion pose_errors poses report
+  states statistics symmetries ycbineoat_layout)
+set(EVALUATION_ENVIRONMENT
+  "PYTHONPATH=${PROJECT_SOURCE_DIR}/scripts:${CMAKE_CURRENT_SOURCE_DIR}/evaluation"
+  "TRACK_SEQUENCE=$<TARGET_FILE:track_sequence>"
+  "SIMULATE_SCENE=$<TARGET_FILE:simulate_scene>")
+if(TARGET track_icp)
+  list(APPEND EVALUATION_TESTS peers)
+  list(APPEND EVALUATION_ENVIRONMENT "TRACK_ICP=$<TARGET_FILE:track_icp>" "TRACK_PCL=$<TARGET_FILE:track_pcl>")
+endif()
+
+foreach(name IN LISTS EVALUATION_TESTS)
+  add_test(NAME evaluation_${name}
+    COMMAND ${EVALUATION_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/evaluation/${name}_test.py)
+  set_tests_properties(evaluation_${name} PROPERTIES TIMEOUT 600 ENVIRONMENT "${EVALUATION_ENVIRONMENT}")
+endforeach()
