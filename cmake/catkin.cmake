@@ -1,5 +1,5 @@
 # Finds catkin where the ROS layer is wanted: WITH_ROS, messages, and the folders of the devel space. Adds no target of ours.
-set(ROS_COMPONENTS geometry_msgs image_transport message_generation nodelet pluginlib rosbag roscpp roslib sensor_msgs
+set(ROS_COMPONENTS geometry_msgs image_transport kdl_parser message_generation nodelet pluginlib rosbag roscpp roslib sensor_msgs
   std_msgs std_srvs tf2_ros visualization_msgs)
 
 # ros_find_python(): catkin's tools need a python3 that knows catkin_pkg; another one often stands first on the PATH.
@@ -59,7 +59,7 @@ generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 
 catkin_package(
   INCLUDE_DIRS include
-  LIBRARIES depth_object_tracker_core depth_object_tracker_ros
-  CATKIN_DEPENDS geometry_msgs image_transport message_runtime nodelet pluginlib rosbag roscpp roslib sensor_msgs std_msgs
+  LIBRARIES depth_object_tracker_core depth_object_tracker_robot depth_object_tracker_ros
+  CATKIN_DEPENDS geometry_msgs image_transport kdl_parser message_runtime nodelet pluginlib rosbag roscpp roslib sensor_msgs std_msgs
     std_srvs tf2_ros visualization_msgs
   DEPENDS EIGEN3)

@@ -3,6 +3,7 @@ if(WITH_ROS)
   install(TARGETS
     depth_object_tracker_core
     depth_object_tracker_nodelets
+    depth_object_tracker_robot
     depth_object_tracker_ros
     depth_object_tracker_ros_simulator
     depth_object_tracker_simulator
@@ -19,6 +20,9 @@ if(WITH_ROS)
 else()
   #catkin_lint: skip
   include(GNUInstallDirs)
+  if(WITH_ROBOT)
+    install(TARGETS depth_object_tracker_robot LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  endif()
   install(TARGETS
     depth_object_tracker_core
     depth_object_tracker_simulator

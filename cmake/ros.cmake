@@ -4,7 +4,6 @@ if(NOT WITH_ROS)
 endif()
 
 add_library(depth_object_tracker_ros SHARED
-  src/robot/twist_buffer.cpp
   src/ros/camera_conversions.cpp
   src/ros/camera_info_matcher.cpp
   src/ros/frame_inbox.cpp
@@ -31,7 +30,7 @@ target_include_directories(depth_object_tracker_ros PUBLIC include)
 # SYSTEM: warnings in the headers of other packages are not ours to mend.
 target_include_directories(depth_object_tracker_ros SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
 target_link_libraries(depth_object_tracker_ros
-  PUBLIC depth_object_tracker_core ${catkin_LIBRARIES}
+  PUBLIC depth_object_tracker_robot ${catkin_LIBRARIES}
   PRIVATE depth_object_tracker_warnings nlohmann_json::nlohmann_json)
 add_dependencies(depth_object_tracker_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 

@@ -22,7 +22,10 @@ double ProcessComponent::logDensity(const Vector6d& displacement) const {
 
 ProcessStep::ProcessStep(const ProcessConfig& config, double dt_s, const std::optional<ControlInput>& control,
                          const Eigen::Vector3d& centre_object, double diffusion_scale)
-    : dt_s_(std::clamp(dt_s, 0.0, config.max_gap_s)), control_(control), centre_object_(centre_object) {
+    : dt_s_(std::clamp(dt_s, 0.0, config.max_gap_s)),
+      control_dt_s_(std::max(dt_s, 0.0)),
+      control_(control),
+      centre_object_(centre_object) {
   if (control_ && !control_->grasped) control_.reset();
   if (dt_s <= config.max_gap_s && config.velocity_half_life_s > 0.0) {
     const double rate = M_LN2 / config.velocity_half_life_s;
@@ -68,10 +71,10 @@ void ProcessStep::allowJump(double share, const Vector6d& variances) {
 Pose ProcessStep::predict(const Pose& T_camera_centre, const Vector6d& velocity) const {
   Vector6d displacement;
   if (control_) {
-    // The control speaks of the mesh origin; the filter's point moves along with omega x (R c).
+    // The control speaks of the mesh origin; the filter's point moves along with omega x (R c), here for a whole turn.
     const Eigen::Vector3d lever = T_camera_centre.linear() * centre_object_;
-    const Eigen::Vector3d linear = control_->linear_m_s + control_->angular_rad_s.cross(lever);
-    displacement << linear * dt_s_, control_->angular_rad_s * dt_s_;
+    const Eigen::Vector3d rotation = control_->angular_rad_s * control_dt_s_;
+    displacement << control_->linear_m_s * control_dt_s_ + expSo3(rotation) * lever - lever, rotation;
     if (!control_->has_twist) displacement.setZero();
   } else {
     displacement = velocity * velocity_displacement_s_;

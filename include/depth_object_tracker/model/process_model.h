@@ -60,6 +60,7 @@ class ProcessStep {
   void setNoise(const ProcessConfig& config, Vector6d variances);
 
   double dt_s_ = 0.0;
+  double control_dt_s_ = 0.0;  // not clamped: the robot's motion is known however long the gap
   std::optional<ControlInput> control_;
   Eigen::Vector3d centre_object_ = Eigen::Vector3d::Zero();
   double velocity_displacement_s_ = 0.0;  ///< integral of the damping over the interval
