@@ -60,6 +60,6 @@ generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES depth_object_tracker_core depth_object_tracker_robot depth_object_tracker_ros
-  CATKIN_DEPENDS geometry_msgs image_transport kdl_parser message_runtime nodelet pluginlib rosbag roscpp roslib sensor_msgs std_msgs
-    std_srvs tf2_ros visualization_msgs
+  CATKIN_DEPENDS geometry_msgs image_transport kdl_parser message_runtime nodelet pluginlib rosbag roscpp roslib sensor_msgs
+    std_msgs std_srvs tf2_ros visualization_msgs
   DEPENDS EIGEN3)

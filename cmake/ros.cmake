@@ -19,6 +19,8 @@ add_library(depth_object_tracker_ros SHARED
   src/ros/pose_validation.cpp
   src/ros/rate_meter.cpp
   src/ros/result_publisher.cpp
+  src/ros/robot_connection.cpp
+  src/ros/robot_options.cpp
   src/ros/status_builder.cpp
   src/ros/tracker_nodelet.cpp
   src/ros/tracker_services.cpp

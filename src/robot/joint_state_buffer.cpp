@@ -95,6 +95,12 @@ std::optional<double> JointStateBuffer::newestStamp(const std::string& joint) co
   return series ? std::optional<double>(series->back().stamp_s) : std::nullopt;
 }
 
+std::vector<std::string> JointStateBuffer::names() const {
+  std::vector<std::string> names;
+  for (const auto& entry : series_) names.push_back(entry.first);
+  return names;
+}
+
 std::optional<double> JointStateBuffer::position(const std::string& joint, double stamp_s) const {
   const Series* series = find(joint);
   if (!series) return std::nullopt;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/robot/robot_state.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <stdexcept>
 #include <utility>
@@ -41,8 +42,19 @@ RobotState::Chain& RobotState::chainTo(const std::string& link) {
   return chains_.emplace(link, Chain{std::move(chain), zeros, zeros}).first->second;
 }
 
+/// What there is instead, for whoever has got the names wrong.
+std::string RobotState::reportedNames() const {
+  constexpr std::size_t kEnough = 12;
+  const std::vector<std::string> names = joints_.names();
+  if (names.empty()) return " (nothing was reported on joint_states)";
+  std::string list;
+  for (std::size_t k = 0; k < std::min(names.size(), kEnough); ++k) append(list, "'" + names[k] + "'");
+  return " (joint_states name " + list + (names.size() > kEnough ? ", ..." : "") + ")";
+}
+
 std::string RobotState::readPositions(const LinkChain& chain, double joint_time_s, Eigen::VectorXd& positions) const {
   std::string problem;
+  bool is_unheard_of = false;
   for (std::size_t k = 0; k < chain.joints().size(); ++k) {
     const std::string& joint = chain.joints()[k];
     const auto position = joints_.position(joint, joint_time_s);
@@ -50,9 +62,10 @@ std::string RobotState::readPositions(const LinkChain& chain, double joint_time_
       positions[static_cast<Eigen::Index>(k)] = *position;
     } else {
       append(problem, complain(joints_, joint, joint_time_s));
+      is_unheard_of = is_unheard_of || !joints_.newestStamp(joint);
     }
   }
-  return problem;
+  return is_unheard_of ? problem + reportedNames() : problem;
 }
 
 /// Adds to the positions at from_s what the chosen velocities make of them until to_s.
@@ -126,7 +139,7 @@ ControlSource controlSourceFromName(const std::string& name) {
   if (name == "measured") return ControlSource::kMeasured;
   if (name == "velocities") return ControlSource::kVelocities;
   if (name == "commands") return ControlSource::kCommands;
-  throw std::invalid_argument("is '" + name + "', must be one of: measured, velocities, commands");
+  throw std::invalid_argument("control_source is '" + name + "', must be one of: measured, velocities, commands");
 }
 
 }  // namespace depth_object_tracker

@@ -90,7 +90,6 @@ NodeletOptions loadNodeletOptions(const ros::NodeHandle& private_node) {
   read("mesh_scale", "a number (metres per unit of the mesh)", options.object.mesh_scale);
   read("init_file", "the path of a JSON file", options.init_file);
   read("image_transport", "the name of an image transport", options.image_transport);
-  read("robot", "true or false", options.robot);
   read("publish_tf", "true or false", options.publish_tf);
   read("marker_use_mesh_resource", "true or false", options.marker_use_mesh_resource);
   read("publish_debug", "true or false", options.publish_debug);

@@ -66,6 +66,32 @@ void TrackerSession::reset() {
   if (object_.tracker) object_.tracker->reset();
 }
 
+void TrackerSession::setRobot(BuiltRobot robot) {
+  if (!robot.problem.empty()) log_.error(robot.problem);
+  if (robot.connection) {
+    log_.info("robot '" + robot.connection->model().name() + "' from '" + robot.connection->model().source() + "'");
+  }
+  held_motion_.setRobot(std::move(robot));
+}
+
+void TrackerSession::setGrasp(bool grasped, const std::string& link) {
+  held_motion_.setGrasp(grasped, link);
+  const std::string problem = grasped ? findLinkProblem(link) : "";
+  if (!problem.empty()) log_.error("the object is held, but " + problem);
+}
+
+void TrackerSession::addJointStates(const sensor_msgs::JointState& message) {
+  if (!held_motion_.robot()) return;
+  const std::string problem = held_motion_.robot()->addJointStates(message);
+  if (!problem.empty()) log_.warn(problem);
+}
+
+void TrackerSession::addCommands(const sensor_msgs::JointState& message) {
+  if (!held_motion_.robot()) return;
+  const std::string problem = held_motion_.robot()->addCommands(message);
+  if (!problem.empty()) log_.warn(problem);
+}
+
 void TrackerSession::addTwist(const geometry_msgs::TwistStamped& twist) {
   const std::string problem = held_motion_.addTwist(twist, camera_frame_, tf_);
   if (!problem.empty()) log_.warn(problem);
@@ -150,14 +176,12 @@ bool TrackerSession::restoreGivenPose(double stamp_s) {
 }
 
 std::optional<ControlInput> TrackerSession::controlFor(double stamp_s) {
-  const auto control = held_motion_.control(last_stamp_s_.value_or(stamp_s), stamp_s);
-  if (control && !control->has_twist && held_motion_.followsTwist()) {
-    log_.warn(
-        "the object is held, but control_twist says nothing about the time of the image: tracking goes on with wider "
-        "noise; "
-        "check the topic and its stamps");
+  const HeldControl held =
+      held_motion_.control(last_stamp_s_.value_or(stamp_s), stamp_s, camera_frame_, last_result_.T_camera_object);
+  if (!held.problem.empty()) {
+    log_.warn("the object is held, but how it moves is not known; tracking goes on with wider noise: " + held.problem);
   }
-  return control;
+  return held.control;
 }
 
 void TrackerSession::runTracker(FrameOutcome& outcome) {
@@ -204,7 +228,7 @@ void TrackerSession::reportInput(FrameOutcome& outcome, bool is_restored) {
       text << image << "jumped back in time, to " << header.stamp
            << " (a bag that loops, or a clock that was set): starting anew from the "
            << (is_restored ? "initial" : "last") << " pose";
-      held_motion_.forgetTwists();
+      held_motion_.forget();
       if (ros::Time::isSimTime()) tf_.clear();  // keeps static transforms
       break;
     case Input::kNoValidDepth:

@@ -71,7 +71,7 @@ void TrackerWorker::handleFrame(const CameraFrame& frame) {
   idle_reported_ = false;
   statistics_.input_rate.update(inbox_.counters().received, last_image_at_);
   if (session_.paused()) return;
-  waitForTwist(frame);
+  waitForControl(frame);
   const FrameOutcome outcome = session_.process(frame);
   publisher_.publishImageAddress(outcome.depth.data);
   publisher_.publish(outcome, session_.object());
@@ -82,10 +82,10 @@ void TrackerWorker::handleFrame(const CameraFrame& frame) {
   publishStatus(outcome.result);
 }
 
-/// The twist up to the image's stamp often arrives just after the image.
-void TrackerWorker::waitForTwist(const CameraFrame& frame) {
+/// Twist and joints up to the image's stamp often arrive just after the image.
+void TrackerWorker::waitForControl(const CameraFrame& frame) {
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(control_wait_);
-  while (session_.awaitsTwist(frame.image->header.stamp) && Clock::now() < deadline) {
+  while (session_.awaitsControl(frame.image->header.stamp) && Clock::now() < deadline) {
     auto delivery = inbox_.waitForCommands(deadline - Clock::now());
     if (!delivery) return;
     carryOut(delivery->commands);

@@ -104,7 +104,8 @@ TEST_F(RobotStateTest, NamesJointsThatAreMissingOrStale) {
   const std::string problem = state.linkPose("hand_link", kBeginS + 0.7).problem;
   EXPECT_NE(problem.find("joint 'joint_4' was never reported"), std::string::npos) << problem;
   EXPECT_NE(problem.find("joint 'joint_2' was last reported 0.70 s before"), std::string::npos) << problem;
-  EXPECT_EQ(problem.find("joint_6"), std::string::npos) << problem;
+  EXPECT_EQ(problem.find("joint 'joint_6'"), std::string::npos) << problem;
+  EXPECT_NE(problem.find("joint_states name 'joint_1'"), std::string::npos) << problem;  // for typing errors
   EXPECT_EQ(state.linkPose("base_link", kBeginS).problem, "");
 }
 

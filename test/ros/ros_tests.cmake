@@ -12,6 +12,8 @@ add_tracker_test(ros_inputs_test
   LIBRARIES depth_object_tracker_ros)
 add_tracker_test(tracker_session_test SOURCES ros/tracker_session_test.cpp LIBRARIES depth_object_tracker_ros)
 
+add_tracker_test(robot_session_test SOURCES ros/robot_session_test.cpp LIBRARIES depth_object_tracker_ros)
+
 # add_ros_test(NAME SOURCES...): a gtest program, and the test file NAME.test that starts it with a master of its own.
 function(add_ros_test name)
   if(ARGN)

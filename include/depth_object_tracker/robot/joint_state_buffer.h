@@ -52,6 +52,9 @@ class JointStateBuffer {
   /// Stamp of the joint's newest sample; nullopt = never reported.
   std::optional<double> newestStamp(const std::string& joint) const;
 
+  /// All joints that were ever reported.
+  std::vector<std::string> names() const;
+
   void clear() { series_.clear(); }
   double maxAge() const { return max_age_s_; }
 

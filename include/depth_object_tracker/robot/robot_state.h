@@ -68,6 +68,7 @@ class RobotState {
   };
   Chain& chainTo(const std::string& link);
   std::string readPositions(const LinkChain& chain, double joint_time_s, Eigen::VectorXd& positions) const;
+  std::string reportedNames() const;
   std::string displace(const LinkChain& chain, double from_s, double to_s, Eigen::VectorXd& positions) const;
 
   RobotModel model_;

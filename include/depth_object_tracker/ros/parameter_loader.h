@@ -35,7 +35,6 @@ struct NodeletOptions {
   ObjectSource object;
   std::string init_file;  ///< JSON pose at start; empty = wait to be told
   std::string image_transport = "raw";
-  bool robot = false;  ///< joint states move the object while it is held (not available yet)
   bool publish_tf = true;
   bool marker_use_mesh_resource = false;  ///< rviz loads the mesh file itself, instead of a triangle list
   bool publish_debug = false;             ///< ~debug/last_image_address

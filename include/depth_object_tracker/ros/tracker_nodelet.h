@@ -27,6 +27,7 @@ class TrackerNodelet : public nodelet::Nodelet {
   void applyInitFile(const std::string& init_file, TrackerSession& session);
   void subscribe(const std::string& image_topic, const std::string& info_topic, const std::string& transport);
   void subscribeCommands();
+  void subscribeJoints();
   std::string findInfoTopic(const std::string& image_topic);
   void onInitialPose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message);
   void onGrasp(const GraspConstPtr& message);
@@ -38,7 +39,8 @@ class TrackerNodelet : public nodelet::Nodelet {
   std::unique_ptr<TrackerServices> services_;
   std::optional<CameraInfoMatcher> matcher_;
   image_transport::Subscriber image_subscriber_;
-  ros::Subscriber info_subscriber_, initial_pose_subscriber_, grasp_subscriber_, twist_subscriber_;
+  ros::Subscriber info_subscriber_, initial_pose_subscriber_, grasp_subscriber_, twist_subscriber_, joint_subscriber_,
+      command_subscriber_;
 };
 
 }  // namespace depth_object_tracker

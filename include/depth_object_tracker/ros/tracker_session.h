@@ -59,11 +59,21 @@ class TrackerSession {
   void refuseInitialPose(const std::string& problem);
   void reset();
   void setPaused(bool paused) { paused_ = paused; }
-  void setGrasp(bool grasped, const std::string& link) { held_motion_.setGrasp(grasped, link); }
-  void addTwist(const geometry_msgs::TwistStamped& twist);
 
-  /// True when the image's control twist is not here yet but may well come.
-  bool awaitsTwist(const ros::Time& stamp) const { return !paused_ && held_motion_.awaitsTwist(stamp.toSec()); }
+  /// Says what is wrong with the robot, if anything; without one, grasps by links are held by an unknown motion.
+  void setRobot(BuiltRobot robot);
+
+  /// @return empty, or why the link's motion cannot be known.
+  std::string findLinkProblem(const std::string& link) const { return held_motion_.findLinkProblem(link); }
+  void setGrasp(bool grasped, const std::string& link);
+  void addTwist(const geometry_msgs::TwistStamped& twist);
+  void addJointStates(const sensor_msgs::JointState& message);
+  void addCommands(const sensor_msgs::JointState& message);
+
+  /// True when the image's control (twist, joints, tf) is not here yet but may well come.
+  bool awaitsControl(const ros::Time& stamp) const {
+    return !paused_ && held_motion_.awaitsControl(stamp.toSec(), camera_frame_);
+  }
 
   FrameOutcome process(const CameraFrame& frame);
 

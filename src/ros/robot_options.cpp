@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_object_tracker/ros/robot_options.h"
+
+#include "depth_object_tracker/geometry/mesh_loader.h"
+#include "depth_object_tracker/ros/object_source.h"
+#include "depth_object_tracker/ros/option_reader.h"
+
+#include <exception>
+#include <utility>
+
+namespace depth_object_tracker {
+namespace {
+
+constexpr const char* kDescriptionParameter = "robot_description";
+
+RobotModel loadModel(const RobotOptions& options, const ros::NodeHandle& private_node) {
+  if (!options.urdf_file.empty()) return RobotModel::fromFile(resolveMeshUri(options.urdf_file, findPackage));
+  std::string name, text;
+  if (!private_node.searchParam(kDescriptionParameter, name)) {
+    throw RobotModelError(
+        "the parameter 'robot_description' is not set; load the robot's URDF into it, or set ~urdf_file");
+  }
+  if (!private_node.getParam(name, text)) throw RobotModelError("the parameter '" + name + "' is not a text");
+  return RobotModel::fromText(text, name);
+}
+
+}  // namespace
+
+RobotOptions loadRobotOptions(const ros::NodeHandle& private_node) {
+  RobotOptions options;
+  OptionReader reader(private_node, options.problems);
+  reader.read("robot", "true or false", options.enabled);
+  reader.read("urdf_file", "the path of a URDF file", options.urdf_file);
+  reader.read("robot_base_frame", "the name of a tf frame", options.config.base_frame);
+  reader.readNumber("joint_time_offset_s", -1.0, 1.0, options.config.state.joint_time_offset_s);
+  reader.readNumber("max_joint_age_s", 0.001, 1.0, options.config.state.max_joint_age_s);
+  reader.readName("control_source", controlSourceFromName, options.config.state.control_source);
+  reader.readName("camera_pose_source", cameraPoseSourceFromName, options.config.camera_pose_source);
+  return options;
+}
+
+BuiltRobot buildRobot(const RobotOptions& options, const ros::NodeHandle& private_node, const tf2::BufferCore& tf) {
+  BuiltRobot built;
+  if (!options.enabled) return built;
+  for (const std::string& problem : options.problems) built.problem += (built.problem.empty() ? "" : "; ") + problem;
+  if (built.problem.empty()) {
+    try {
+      built.connection = std::make_shared<RobotConnection>(loadModel(options, private_node), options.config, tf);
+    } catch (const std::exception& error) {
+      built.problem = error.what();
+    }
+  }
+  if (!built.problem.empty()) built.problem = "there is no robot: " + built.problem;
+  return built;
+}
+
+}  // namespace depth_object_tracker

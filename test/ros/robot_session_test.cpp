@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A held object follows the joints of the hand that holds it.
+#include "depth_object_tracker/ros/tracker_session.h"
+#include "swinging_arm.h"
+
+#include <gtest/gtest.h>
+#include <tf2/buffer_core.h>
+
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+namespace depth_object_tracker {
+namespace {
+
+constexpr double kBeginS = 1000.0;
+constexpr double kFrameS = 1.0 / 30.0;
+constexpr double kJointPeriodS = 0.004;
+
+class RobotSessionTest : public testing::Test {
+ protected:
+  RobotSessionTest() : arm_(kBeginS), session_("test", "/camera/depth/image_raw", "/camera/depth/camera_info", tf_) {
+    ObjectSource source;
+    source.mesh = testMeshFile();
+    TrackerConfig config;
+    config.filter.num_particles = 40;
+    session_.setTracker(buildTracker(source, config));
+  }
+
+  void connect(const RobotConnectionConfig& config = {}) {
+    session_.setRobot({std::make_shared<RobotConnection>(RobotModel::fromFile(armFile()), config, tf_), ""});
+  }
+  void mountCamera() { tf_.setTransform(arm_.cameraTransform(), "test", true); }
+
+  void initialise(const Pose& T_camera_object) {
+    InitialPose pose;
+    pose.T_frame_object = T_camera_object;
+    session_.initialise(pose, nullptr);
+  }
+
+  void moveJointsUntil(double stamp_s) {
+    for (; joints_until_s_ <= stamp_s + kJointPeriodS; joints_until_s_ += kJointPeriodS) {
+      session_.addJointStates(arm_.jointStates(joints_until_s_));
+    }
+  }
+
+  /// An image of the object, or one in which nothing is seen at all.
+  FrameOutcome step(bool is_seen, const Pose& T_camera_object) {
+    std::vector<float> depth = scene_.depth(T_camera_object);
+    if (!is_seen) depth.assign(depth.size(), 0.0f);
+    const auto image = makeUint16Image(depth, testCamera().width, testCamera().height);
+    image->header.stamp = ros::Time(stamp_s_);
+    frame_ = CameraFrame{image, makeCameraInfo(testCamera()), std::chrono::steady_clock::now()};
+    const FrameOutcome outcome = session_.process(frame_);
+    stamp_s_ += kFrameS;
+    return outcome;
+  }
+
+  static double errorM(const FrameOutcome& outcome, const Pose& T_camera_object) {
+    return (outcome.result.T_camera_object.translation() - T_camera_object.translation()).norm();
+  }
+
+  /// Sees the object for a moment, then moves it unseen for half a second.
+  void expectItFollowsUnseen(double tolerance_m) {
+    initialise(arm_.T_camera_object(stamp_s_));
+    FrameOutcome outcome;
+    for (int k = 0; k < 20; ++k) {
+      const double now_s = stamp_s_;
+      moveJointsUntil(now_s);
+      outcome = step(k < 5, arm_.T_camera_object(now_s));
+      EXPECT_LT(errorM(outcome, arm_.T_camera_object(now_s)), tolerance_m) << "frame " << k;
+    }
+    EXPECT_TRUE(outcome.result.grasped);
+    const double travelled =
+        (arm_.T_camera_object(stamp_s_).translation() - arm_.T_camera_object(kBeginS).translation()).norm();
+    EXPECT_GT(travelled, 0.03);  // there was something to follow
+  }
+
+  TestScene scene_;
+  SwingingArm arm_;
+  tf2::BufferCore tf_;
+  TrackerSession session_;
+  CameraFrame frame_;
+  double stamp_s_ = kBeginS;
+  double joints_until_s_ = kBeginS - 0.1;
+};
+
+TEST_F(RobotSessionTest, FollowsTheHandWhileNothingIsSeen) {
+  connect();
+  mountCamera();
+  session_.setGrasp(true, "hand_link");
+  expectItFollowsUnseen(0.003);
+}
+
+TEST_F(RobotSessionTest, FollowsReportedVelocities) {
+  RobotConnectionConfig config;
+  config.state.control_source = ControlSource::kVelocities;
+  connect(config);
+  mountCamera();
+  session_.setGrasp(true, "hand_link");
+  expectItFollowsUnseen(0.003);
+}
+
+TEST_F(RobotSessionTest, ACameraThatMovesIsPlacedByTfAtTheStamp) {
+  connect();
+  // The camera slides along its own x axis at 0.3 m/s; the object is where the arm has it.
+  const auto T_moved_camera = [](double stamp_s) {
+    return Pose(Eigen::Translation3d(-0.3 * (stamp_s - kBeginS), 0, 0));
+  };
+  for (double t_s = kBeginS - 0.1; t_s < kBeginS + 1.0; t_s += 0.01) {
+    geometry_msgs::TransformStamped transform = arm_.cameraTransform();
+    transform.header.stamp = ros::Time(t_s);
+    transform.transform = toTransformMessage((T_moved_camera(t_s) * arm_.T_camera_base()).inverse());
+    tf_.setTransform(transform, "test", false);
+  }
+  session_.setGrasp(true, "hand_link");
+  initialise(T_moved_camera(stamp_s_) * arm_.T_camera_object(stamp_s_));
+  for (int k = 0; k < 15; ++k) {
+    const Pose T_camera_object = T_moved_camera(stamp_s_) * arm_.T_camera_object(stamp_s_);
+    moveJointsUntil(stamp_s_);
+    EXPECT_LT(errorM(step(k < 5, T_camera_object), T_camera_object), 0.003) << "frame " << k;
+  }
+}
+
+TEST_F(RobotSessionTest, ACameraOfTheUrdfNeedsNoTf) {
+  RobotConnectionConfig config;
+  config.camera_pose_source = CameraPoseSource::kUrdf;
+  std::string urdf;
+  {
+    std::ifstream file(armFile());
+    urdf.assign(std::istreambuf_iterator<char>(file), {});
+  }
+  const Pose T_base_camera = arm_.T_camera_base().inverse();
+  const Eigen::Vector3d ypr = T_base_camera.linear().eulerAngles(2, 1, 0);
+  std::ostringstream camera;
+  camera.precision(15);
+  camera << "<link name='camera_depth_optical_frame'/><joint name='mount' type='fixed'><parent link='base_link'/>"
+         << "<child link='camera_depth_optical_frame'/><origin xyz='" << T_base_camera.translation().transpose()
+         << "' rpy='" << ypr[2] << ' ' << ypr[1] << ' ' << ypr[0] << "'/></joint></robot>";
+  urdf.replace(urdf.rfind("</robot>"), 8, camera.str());
+  session_.setRobot({std::make_shared<RobotConnection>(RobotModel::fromText(urdf, "test"), config, tf_), ""});
+  session_.setGrasp(true, "hand_link");
+  expectItFollowsUnseen(0.003);
+}
+
+TEST_F(RobotSessionTest, GoesOnWithoutJointsOrTfOrRobot) {
+  session_.setGrasp(true, "hand_link");
+  EXPECT_NE(session_.findLinkProblem("hand_link").find("~robot is false"), std::string::npos);
+  connect();
+  session_.setGrasp(true, "no_such_link");
+  EXPECT_NE(session_.findLinkProblem("no_such_link").find("'no_such_link'"), std::string::npos);
+  initialise(testPose());
+  for (const bool has_tf : {false, true}) {
+    if (has_tf) mountCamera();
+    session_.setGrasp(true, "hand_link");  // joints never come
+    FrameOutcome outcome;
+    for (int k = 0; k < 5; ++k) outcome = step(true, testPose());
+    EXPECT_TRUE(outcome.result.grasped);
+    EXPECT_EQ(outcome.result.state, TrackerState::kTracking) << outcome.result.reason;
+    EXPECT_LT(errorM(outcome, testPose()), 0.003);
+  }
+}
+
+TEST_F(RobotSessionTest, WaitsForJointsThatAreComing) {
+  connect();
+  mountCamera();
+  session_.setGrasp(true, "hand_link");
+  EXPECT_FALSE(session_.awaitsControl(ros::Time(kBeginS)));
+  moveJointsUntil(kBeginS);
+  initialise(testPose());
+  step(true, testPose());
+  EXPECT_FALSE(session_.awaitsControl(ros::Time(kBeginS)));
+  EXPECT_TRUE(session_.awaitsControl(ros::Time(kBeginS + 0.03)));
+  session_.setGrasp(false, "");
+  EXPECT_FALSE(session_.awaitsControl(ros::Time(kBeginS + 0.03)));
+}
+
+}  // namespace
+}  // namespace depth_object_tracker
