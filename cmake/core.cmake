@@ -28,6 +28,7 @@ add_library(depth_object_tracker_core SHARED
   src/model/occlusion_chain.cpp
   src/model/pixel_likelihood.cpp
   src/model/process_model.cpp
+  src/model/slip_estimator.cpp
   src/render/depth_renderer.cpp
   src/render/depth_tile.cpp
   src/render/face_set.cpp

@@ -13,7 +13,7 @@ if(WITH_ROS)
     RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
   install(TARGETS demo_monitor scene_to_bag simulate_scene simulator_node track_sequence tracker_node
     RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-  catkin_install_python(PROGRAMS scripts/benchmark_sequences scripts/plot_benchmark scripts/play_bag scripts/relay_joint_commands
+  catkin_install_python(PROGRAMS scripts/benchmark_sequences scripts/plot_benchmark scripts/play_bag scripts/relay_joint_commands scripts/slip_roc
     DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
   install(DIRECTORY config launch meshes rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

@@ -14,6 +14,7 @@ else()
 endif()
 
 add_library(depth_object_tracker_robot SHARED
+  src/robot/grasp_detector.cpp
   src/robot/hand_motion.cpp
   src/robot/joint_state_buffer.cpp
   src/robot/link_chain.cpp

@@ -36,6 +36,14 @@ RobotOptions loadRobotOptions(const ros::NodeHandle& private_node) {
   reader.readNumber("max_joint_age_s", 0.001, 1.0, options.config.state.max_joint_age_s);
   reader.readName("control_source", controlSourceFromName, options.config.state.control_source);
   reader.readName("camera_pose_source", cameraPoseSourceFromName, options.config.camera_pose_source);
+  GraspDetectorConfig& detection = options.grasp_detection;
+  reader.read("grasp_detection/link", "the name of a link", detection.link);
+  reader.read("grasp_detection/joint", "the name of a joint", detection.joint);
+  reader.readNumber("grasp_detection/open_position", -10.0, 10.0, detection.open_position);
+  reader.readNumber("grasp_detection/closed_position", -10.0, 10.0, detection.closed_position);
+  reader.readNumber("grasp_detection/decide_after_s", 0.01, 10.0, detection.decide_after_s);
+  reader.readNumber("grasp_detection/max_distance_m", 0.001, 10.0, detection.max_distance_m);
+  reader.readNumber("grasp_detection/max_relative_speed_m_s", 0.001, 10.0, detection.max_relative_speed_m_s);
   return options;
 }
 
@@ -46,7 +54,12 @@ BuiltRobot buildRobot(const RobotOptions& options, const ros::NodeHandle& privat
   if (built.problem.empty()) {
     try {
       built.connection = std::make_shared<RobotConnection>(loadModel(options, private_node), options.config, tf);
+      if (!options.grasp_detection.link.empty()) {
+        built.connection->model().chainTo(options.grasp_detection.link);  // throws when there is none
+        built.grasp_detector = std::make_shared<GraspDetector>(options.grasp_detection);
+      }
     } catch (const std::exception& error) {
+      built.connection.reset();
       built.problem = error.what();
     }
   }

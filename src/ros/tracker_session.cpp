@@ -76,6 +76,7 @@ void TrackerSession::setRobot(BuiltRobot robot) {
 
 void TrackerSession::setGrasp(bool grasped, const std::string& link) {
   held_motion_.setGrasp(grasped, link);
+  if (held_motion_.graspDetector()) held_motion_.graspDetector()->setHeld(grasped);
   const std::string problem = grasped ? findLinkProblem(link) : "";
   if (!problem.empty()) log_.error("the object is held, but " + problem);
 }
@@ -203,7 +204,26 @@ void TrackerSession::runTracker(FrameOutcome& outcome) {
     outcome.result.reason = initial_pose_problem_;
   }
   last_result_ = outcome.result;
+  if (outcome.processed) detectGrasp(outcome);
   answerWaiting(outcome);
+}
+
+void TrackerSession::detectGrasp(const FrameOutcome& outcome) {
+  GraspDetector* detector = held_motion_.graspDetector();
+  if (detector == nullptr || outcome.result.state != TrackerState::kTracking) return;
+  const double stamp_s = outcome.header.stamp.toSec();
+  const std::string& link = detector->config().link;
+  const LinkInCamera hand = held_motion_.robot()->locate(link, camera_frame_, stamp_s);
+  const auto joint = held_motion_.robot()->jointPosition(detector->config().joint, stamp_s);
+  if (!hand.problem.empty() || !joint) {
+    log_.warn("grasp detection waits: " +
+              (hand.problem.empty() ? "joint '" + detector->config().joint + "' is not reported" : hand.problem));
+    return;
+  }
+  const auto held = detector->update(stamp_s, *joint, hand.T_camera_link.inverse() * outcome.result.T_camera_object);
+  if (!held) return;
+  log_.info(*held ? "link '" + link + "' holds the object" : "link '" + link + "' does not hold the object any more");
+  held_motion_.setGrasp(*held, *held ? link : "");
 }
 
 /// Says in the log, and where it explains the state also in the reason, what was wrong with the image.

@@ -132,6 +132,7 @@ HandAndArm SceneSimulator::Implementation::makeHolder(HandKind kind, std::uint64
 const SimulatedFrame& SceneSimulator::Implementation::render(double stamp_s) {
   frame_.stamp_s = stamp_s;
   frame_.T_camera_object = motion_.object(stamp_s);
+  frame_.slipping = motion_.isSlipping(stamp_s);
   frame_.T_camera_object_kinematics = frame_.T_camera_object;
   if (config_.scenario == Scenario::kRobot || config_.scenario == Scenario::kSlip) {
     const Pose T_camera_held = motion_.held(stamp_s);

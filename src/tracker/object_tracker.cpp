@@ -4,6 +4,7 @@
 #include "depth_object_tracker/filter/depth_likelihood.h"
 #include "depth_object_tracker/filter/particle_filter.h"
 #include "depth_object_tracker/filter/stopwatch.h"
+#include "depth_object_tracker/model/slip_estimator.h"
 #include "depth_object_tracker/render/depth_renderer.h"
 #include "depth_object_tracker/tracker/frame_clock.h"
 #include "depth_object_tracker/tracker/pose_search.h"
@@ -69,6 +70,7 @@ class ObjectTracker::Implementation {
         filter(config.filter, objectRadius(object.mesh, centre_object), aboutCentre(object.symmetries, centre_object)),
         resolution(config.resolution),
         status(config.status),
+        slip(config.slip),
         search(config.filter.seed) {}
 
   TrackerResult update(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s,
@@ -89,11 +91,14 @@ class ObjectTracker::Implementation {
   ParticleFilter filter;
   ResolutionChooser resolution;
   StatusMonitor status;
+  SlipEstimator slip;
   PoseSearch search;
   Pose last_seen_centre = Pose::Identity();
   double unseen_s = 0.0;     // since the object was last seen well
   PoseStatistics last_mean;  // of the centre
   bool fit_is_poor = false;  // look around in the next frame
+  bool follows_hand = false;
+  Vector6d hand_velocity = Vector6d::Zero();  // of the centre as the robot has it; zero when it is not followed
   FrameClock clock;
   std::optional<Vector6d> initial_variances;  // set by initialise, used by the next image
   double full_resolution_pixels = 0.0;        // that the object covers
@@ -108,6 +113,9 @@ class ObjectTracker::Implementation {
   double diffusionScale() const;
   /// The process into this image, and poses to look at besides: at the start, while little is seen, after a loss.
   ProcessStep makeStep(double dt_s, const std::optional<ControlInput>& control, std::vector<Pose>& hypotheses);
+  /// Particles' velocities are relative to the hand while it is followed: hand over at grasp and release.
+  void followHand(const ProcessStep& step, bool follows, double dt_s);
+  void estimateSlip(const FilterEstimate& estimate, const ProcessStep& step, double dt_s);
   void rememberFit(const FilterEstimate& estimate, double dt_s);
   void writeEstimate(const FilterEstimate& estimate);
   void writeStatus(const PoseAssessment& assessment);
@@ -138,6 +146,7 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
   result.downsampling = grid.factor;
   writeEstimate(estimate);
   writeStatus(assessment);
+  estimateSlip(estimate, step, time.dt_s);
   rememberFit(estimate, time.dt_s);
   result.time.total_s = stopwatch.lap();
   return result;
@@ -206,7 +215,8 @@ ProcessStep ObjectTracker::Implementation::makeStep(double dt_s, const std::opti
     hypotheses = search.around(last_seen_centre, variances, kHypotheses);
     return ProcessStep(config.process, variances);
   }
-  ProcessStep step(config.process, dt_s, control, centre_object, diffusionScale());
+  ProcessStep step(config.process, dt_s, control, centre_object, diffusionScale(), slip.noiseScale());
+  followHand(step, control && control->isFollowed(), dt_s);
   const bool lost = status.misfit();
   if (may_search && lost) {
     const Vector6d variances = searchVariances(unseen_s + dt_s);
@@ -220,6 +230,33 @@ ProcessStep ObjectTracker::Implementation::makeStep(double dt_s, const std::opti
     hypotheses = search.around(last_mean.mean, spread, kHypotheses);
   }
   return step;
+}
+
+void ObjectTracker::Implementation::followHand(const ProcessStep& step, bool follows, double dt_s) {
+  const Vector6d before = hand_velocity;
+  hand_velocity.setZero();
+  if (follows && dt_s > 0.0) hand_velocity = step.controlDisplacement(last_mean.mean) / dt_s;
+  if (follows != follows_hand) {
+    filter.shiftVelocities(before - hand_velocity);
+    slip.reset();
+  }
+  follows_hand = follows;
+}
+
+void ObjectTracker::Implementation::estimateSlip(const FilterEstimate& estimate, const ProcessStep& step, double dt_s) {
+  result.slip.reset();
+  if (!follows_hand || dt_s <= 0.0) return;
+  HandStep in_hand;
+  const Pose carried = perturb(last_mean.mean, step.controlDisplacement(last_mean.mean));
+  in_hand.residual = difference(estimate.pose.mean, carried);
+  in_hand.pose_variances = estimate.pose.covariance.diagonal();
+  in_hand.hand_velocity = hand_velocity;
+  in_hand.R_camera_object = estimate.pose.mean.linear();
+  in_hand.dt_s = dt_s;
+  result.slip = slip.update(in_hand);
+  const Eigen::Vector3d origin_from_centre = -(in_hand.R_camera_object * centre_object);
+  result.slip->relative_twist.head<3>() += result.slip->relative_twist.tail<3>().cross(origin_from_centre);
+  result.slip->covariance = transportCovariance(result.slip->covariance, origin_from_centre);
 }
 
 void ObjectTracker::Implementation::rememberFit(const FilterEstimate& estimate, double dt_s) {
@@ -250,8 +287,8 @@ void ObjectTracker::Implementation::writeEstimate(const FilterEstimate& estimate
   result.has_pose = true;
   result.T_camera_object = toObject(estimate.pose.mean);
   result.covariance = transportCovariance(covariance, origin_from_centre);
-  result.twist = estimate.velocity;
-  result.twist.head<3>() += estimate.velocity.tail<3>().cross(origin_from_centre);
+  result.twist = estimate.velocity + hand_velocity;
+  result.twist.head<3>() += result.twist.tail<3>().cross(origin_from_centre);
   result.twist_covariance = transportCovariance(estimate.velocity_covariance, origin_from_centre);
   result.effective_sample_size = estimate.effective_sample_size;
   result.num_particles = static_cast<int>(filter.poses().size());
@@ -289,6 +326,9 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
   self.last_seen_centre = T_camera_centre;
   self.unseen_s = 0.0;
   self.fit_is_poor = false;
+  self.follows_hand = false;
+  self.slip.reset();
+  self.hand_velocity.setZero();
   self.likelihood.resetOcclusion();
   self.clock.reset();
   self.status.restart();

@@ -52,9 +52,23 @@ Bindings processBindings() {
     bindNumber(FIELD(process, grasped_rotation_noise_rad_per_sqrt_s), 1e-5, 30.0, "random rotation of an object that a robot holds"),
     bindNumber(FIELD(process, grasped_position_bias_m_per_s), 0.0, 1.0, "constant error of the robot's linear velocity, standard deviation"),
     bindNumber(FIELD(process, grasped_rotation_bias_rad_per_s), 0.0, 10.0, "constant error of the robot's angular velocity, standard deviation"),
+    bindNumber(FIELD(process, grasped_velocity_half_life_s), 0.0, 10.0, "time over which a motion in the robot's hand (slip) halves; 0 = no such motion (the paper)"),
     bindNumber(FIELD(process, diffusion_full_above_visible_fraction), 0.0, 1.0, "when less of the object is seen, random motion is held back; 0 = never (the paper)"),
     bindNumber(FIELD(process, hidden_diffusion_scale), 0.001, 1.0, "share of the random motion that is left when nothing is seen"),
     bindNumber(FIELD(process, max_gap_s), 0.01, 60.0, "longer gaps between images count as this long, with zero velocity"),
+  };
+}
+
+Bindings slipBindings() {
+  return {
+    bindNumber(FIELD(slip, slip_position_stddev_m_per_s), 1e-4, 10.0, "how fast objects slip in a robot's hand, standard deviation, each axis"),
+    bindNumber(FIELD(slip, slip_rotation_stddev_rad_per_s), 1e-3, 100.0, "how fast objects turn in a robot's hand, standard deviation, each axis"),
+    bindNumber(FIELD(slip, slip_time_constant_s), 0.01, 10.0, "how long a slip goes on at about the same velocity"),
+    bindNumber(FIELD(slip, kinematics_position_error_m_per_s), 0.0, 1.0, "error of the robot's linear velocity that is no slip, standard deviation"),
+    bindNumber(FIELD(slip, kinematics_rotation_error_rad_per_s), 0.0, 10.0, "error of the robot's angular velocity that is no slip, standard deviation"),
+    bindNumber(FIELD(slip, kinematics_relative_error), 0.0, 1.0, "share of the hand's velocity that may be wrong on top of that"),
+    bindNumber(FIELD(slip, slip_threshold), 0.0, 1e6, "an object slips when its motion in the hand is longer than this (squared Mahalanobis length)"),
+    bindNumber(FIELD(slip, slip_noise_scale_max), 1.0, 100.0, "the noise in the hand is widened in a slip, at most so much; 1 = never (the paper)"),
   };
 }
 
@@ -91,7 +105,7 @@ Bindings operationBindings() {
 const Bindings& bindings() {
   static const Bindings all = [] {
     Bindings list;
-    for (Bindings (*group)() : {measurementBindings, processBindings, filterBindings, operationBindings}) {
+    for (Bindings (*group)() : {measurementBindings, processBindings, slipBindings, filterBindings, operationBindings}) {
       for (ParameterBinding& binding : group()) list.push_back(std::move(binding));
     }
     return list;

@@ -5,6 +5,7 @@ endif()
 
 add_tracker_test(robot_test
   SOURCES
+    ${CMAKE_CURRENT_LIST_DIR}/grasp_detector_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/hand_motion_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/joint_state_buffer_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/robot_model_test.cpp

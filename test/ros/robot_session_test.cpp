@@ -28,7 +28,7 @@ class RobotSessionTest : public testing::Test {
   }
 
   void connect(const RobotConnectionConfig& config = {}) {
-    session_.setRobot({std::make_shared<RobotConnection>(RobotModel::fromFile(armFile()), config, tf_), ""});
+    session_.setRobot({std::make_shared<RobotConnection>(RobotModel::fromFile(armFile()), config, tf_), nullptr, ""});
   }
   void mountCamera() { tf_.setTransform(arm_.cameraTransform(), "test", true); }
 
@@ -138,7 +138,7 @@ TEST_F(RobotSessionTest, ACameraOfTheUrdfNeedsNoTf) {
          << "<child link='camera_depth_optical_frame'/><origin xyz='" << T_base_camera.translation().transpose()
          << "' rpy='" << ypr[2] << ' ' << ypr[1] << ' ' << ypr[0] << "'/></joint></robot>";
   urdf.replace(urdf.rfind("</robot>"), 8, camera.str());
-  session_.setRobot({std::make_shared<RobotConnection>(RobotModel::fromText(urdf, "test"), config, tf_), ""});
+  session_.setRobot({std::make_shared<RobotConnection>(RobotModel::fromText(urdf, "test"), config, tf_), nullptr, ""});
   session_.setGrasp(true, "hand_link");
   expectItFollowsUnseen(0.003);
 }
@@ -158,6 +158,49 @@ TEST_F(RobotSessionTest, GoesOnWithoutJointsOrTfOrRobot) {
     EXPECT_TRUE(outcome.result.grasped);
     EXPECT_EQ(outcome.result.state, TrackerState::kTracking) << outcome.result.reason;
     EXPECT_LT(errorM(outcome, testPose()), 0.003);
+  }
+}
+
+TEST_F(RobotSessionTest, GraspAndReleaseDoNotJump) {
+  connect();
+  mountCamera();
+  initialise(arm_.T_camera_object(stamp_s_));
+  Vector6d twist = Vector6d::Zero();
+  for (int k = 0; k < 60; ++k) {
+    if (k % 15 == 5) session_.setGrasp(k % 30 == 5, "hand_link");
+    const double now_s = stamp_s_;
+    moveJointsUntil(now_s);
+    const FrameOutcome outcome = step(true, arm_.T_camera_object(now_s));
+    EXPECT_LT(errorM(outcome, arm_.T_camera_object(now_s)), 0.0025) << "frame " << k;
+    EXPECT_EQ(outcome.result.state, TrackerState::kTracking) << outcome.result.reason;
+    twist = outcome.result.twist;
+    const Vector6d truth = difference(arm_.T_camera_object(now_s), arm_.T_camera_object(now_s - kFrameS)) / kFrameS;
+    if (k < 5) continue;
+    EXPECT_LT((twist - truth).head<3>().norm(), 0.05) << "frame " << k;  // of all, not of that in the hand
+  }
+  EXPECT_GT(twist.head<3>().norm(), 0.03);
+}
+
+TEST_F(RobotSessionTest, DetectsAGraspByTheGrippersJoint) {
+  GraspDetectorConfig detection;
+  detection.link = "hand_link";
+  detection.joint = "finger_3_joint";
+  detection.closed_position = 1.5;
+  session_.setRobot({std::make_shared<RobotConnection>(RobotModel::fromFile(armFile()), RobotConnectionConfig(), tf_),
+                     std::make_shared<GraspDetector>(detection), ""});
+  mountCamera();
+  initialise(arm_.T_camera_object(stamp_s_));
+  for (const bool closed : {false, true, false}) {
+    for (int k = 0; k < 15; ++k) {
+      moveJointsUntil(stamp_s_);
+      sensor_msgs::JointState gripper;
+      gripper.header.stamp = ros::Time(stamp_s_);
+      gripper.name = {"finger_3_joint"};
+      gripper.position = {closed ? 0.9 : 0.01};
+      session_.addJointStates(gripper);
+      step(true, arm_.T_camera_object(stamp_s_));
+    }
+    EXPECT_EQ(session_.grasped(), closed);
   }
 }
 

@@ -55,6 +55,9 @@ class ParticleFilter {
   /// Velocities become zero (after a time jump or a gap).
   void stopMotion();
 
+  /// Adds to all velocities [m/s, rad/s]: what they are relative to has changed.
+  void shiftVelocities(const Vector6d& shift);
+
  private:
   void resampleIfNeeded(PoseLikelihood& likelihood);
   void predict(const ProcessStep& step);

@@ -108,6 +108,7 @@ class TrackerSession {
   bool restoreGivenPose(double stamp_s);
   std::optional<ControlInput> controlFor(double stamp_s);
   void runTracker(FrameOutcome& outcome);
+  void detectGrasp(const FrameOutcome& outcome);
   void reportInput(FrameOutcome& outcome, bool is_restored);
   void answerWaiting(const FrameOutcome& outcome);
   TrackerResult refusedResult(const std::string& reason) const;

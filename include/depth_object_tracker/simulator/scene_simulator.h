@@ -21,6 +21,7 @@ struct SimulatedFrame {
   int object_pixels = 0;                    ///< in the image, occluded or not
   int visible_pixels = 0;
   std::optional<ControlInput> control;                 ///< while a robot holds the object
+  bool slipping = false;                               ///< it is moving in the robot's hand
   Pose T_camera_object_kinematics = Pose::Identity();  ///< where the robot believes it is; the truth without a robot
 
   double visibleFraction() const {
