@@ -88,8 +88,8 @@ SlipEstimate SlipEstimator::update(const HandStep& step) {
 }
 
 double SlipEstimator::noiseScale() const {
-  constexpr double kExpected = 6.0;
-  return std::clamp(std::sqrt(statistic_ / kExpected), 1.0, config_.slip_noise_scale_max);
+  constexpr double kUsual = 2.0;  // at most times it is below
+  return std::clamp(std::sqrt(statistic_ / kUsual), 1.0, config_.slip_noise_scale_max);
 }
 
 }  // namespace depth_object_tracker

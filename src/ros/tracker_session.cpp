@@ -45,6 +45,7 @@ void TrackerSession::setTracker(BuiltTracker built) {
 }
 
 void TrackerSession::initialise(const InitialPose& pose, InitialisationCallback callback) {
+  correction_.reset();
   abandon("superseded by a newer initial pose");
   waiting_ = std::move(callback);
   pending_pose_ = PendingPose{pose, std::nullopt};
@@ -75,6 +76,8 @@ void TrackerSession::setRobot(BuiltRobot robot) {
 }
 
 void TrackerSession::setGrasp(bool grasped, const std::string& link) {
+  const bool is_same = grasped == held_motion_.isGrasped() && link == held_motion_.link();
+  if (!is_same) correction_.reset();
   held_motion_.setGrasp(grasped, link);
   if (held_motion_.graspDetector()) held_motion_.graspDetector()->setHeld(grasped);
   const std::string problem = grasped ? findLinkProblem(link) : "";
@@ -204,8 +207,28 @@ void TrackerSession::runTracker(FrameOutcome& outcome) {
     outcome.result.reason = initial_pose_problem_;
   }
   last_result_ = outcome.result;
+  if (outcome.processed) describeHand(outcome);
   if (outcome.processed) detectGrasp(outcome);
   answerWaiting(outcome);
+}
+
+/// What the held object says of the hand. Nothing is concluded from an object that is not seen.
+void TrackerSession::describeHand(FrameOutcome& outcome) {
+  const TrackerResult& result = outcome.result;
+  if (!result.slip || result.state != TrackerState::kTracking) return;
+  HandReport report;
+  report.link = held_motion_.followsLink() ? held_motion_.link() : "";
+  report.slip = *result.slip;
+  report.T_camera_object = result.T_camera_object;
+  report.covariance = result.covariance;
+  if (!report.link.empty()) {
+    const double stamp_s = outcome.header.stamp.toSec();
+    const LinkInCamera link = held_motion_.robot()->locate(report.link, camera_frame_, stamp_s);
+    if (!link.problem.empty()) return;  // said where the control was made
+    report.T_camera_link = link.T_camera_link;
+    report.observed = correction_.update(stamp_s, link.T_camera_link, result.T_camera_object, result.slip->slipping);
+  }
+  outcome.hand = report;
 }
 
 void TrackerSession::detectGrasp(const FrameOutcome& outcome) {
@@ -223,6 +246,7 @@ void TrackerSession::detectGrasp(const FrameOutcome& outcome) {
   const auto held = detector->update(stamp_s, *joint, hand.T_camera_link.inverse() * outcome.result.T_camera_object);
   if (!held) return;
   log_.info(*held ? "link '" + link + "' holds the object" : "link '" + link + "' does not hold the object any more");
+  correction_.reset();
   held_motion_.setGrasp(*held, *held ? link : "");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A held object follows the joints of the hand that holds it.
 #include "depth_object_tracker/ros/tracker_session.h"
+#include "random_pose.h"
 #include "swinging_arm.h"
 
 #include <gtest/gtest.h>
@@ -179,6 +180,41 @@ TEST_F(RobotSessionTest, GraspAndReleaseDoNotJump) {
     EXPECT_LT((twist - truth).head<3>().norm(), 0.05) << "frame " << k;  // of all, not of that in the hand
   }
   EXPECT_GT(twist.head<3>().norm(), 0.03);
+}
+
+TEST_F(RobotSessionTest, TellsWhereTheHandIsWhenTheKinematicsAreWrong) {
+  connect();
+  mountCamera();
+  session_.setGrasp(true, "hand_link");
+  initialise(arm_.T_camera_object(stamp_s_));
+  // The cables stretch: the object drifts away from where the joints have it, by 15 mm in a second and a half.
+  const auto stretched = [&](double stamp_s) {
+    return Pose(Eigen::Translation3d(0.0, 0.01 * std::min(1.5, stamp_s - kBeginS), 0.0));
+  };
+  FrameOutcome outcome;
+  Pose T_camera_link;
+  for (int k = 0; k < 60; ++k) {
+    const double now_s = stamp_s_;
+    moveJointsUntil(now_s);
+    T_camera_link = arm_.T_camera_hand(now_s);
+    outcome = step(true, stretched(now_s) * arm_.T_camera_object(now_s));
+  }
+  ASSERT_TRUE(outcome.hand);
+  const Pose T_camera_observed = outcome.hand->T_camera_link * outcome.hand->observed.T_link_observed;
+  const Pose T_camera_truth = stretched(stamp_s_) * T_camera_link;
+  EXPECT_LT((T_camera_observed.translation() - T_camera_truth.translation()).norm(), 0.004);
+  EXPECT_GT((T_camera_link.translation() - T_camera_truth.translation()).norm(), 0.014);
+  EXPECT_LT(largestDifference(T_camera_observed * outcome.hand->observed.T_link_object, outcome.result.T_camera_object),
+            1e-9);
+  const auto correction = toCorrectionMessage(*outcome.hand, outcome.header.stamp);
+  EXPECT_EQ(correction.header.frame_id, "hand_link");
+  const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> covariance(correction.pose.covariance.data());
+  EXPECT_GT(Matrix6d(covariance).ldlt().vectorD().minCoeff(), 0.0);
+  const Slip slip = toSlipMessage(*outcome.hand, outcome.header.stamp, "camera");
+  EXPECT_EQ(slip.header.frame_id, "hand_link");
+  EXPECT_FALSE(slip.slipping);
+  EXPECT_LT((outcome.hand->observed.T_link_object.translation() - arm_.T_hand_object().translation()).norm(), 0.004);
+  EXPECT_EQ(toCorrectionTransform(*outcome.hand, outcome.header.stamp).child_frame_id, "hand_link_observed");
 }
 
 TEST_F(RobotSessionTest, DetectsAGraspByTheGrippersJoint) {

@@ -6,6 +6,7 @@ add_tracker_test(tracker_sequence_tests
     sequence/input_test.cpp
     sequence/motion_test.cpp
     sequence/scripted_scene.cpp
+    sequence/slip_test.cpp
   LIBRARIES depth_object_tracker_simulator depth_object_tracker_tools)
 
 add_tracker_test(recorded_scenes_tests SOURCES sequence/recorded_scenes_test.cpp LIBRARIES depth_object_tracker_tools)

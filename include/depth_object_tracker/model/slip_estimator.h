@@ -21,7 +21,7 @@ struct HandStep {
 struct SlipEstimate {
   Vector6d relative_twist = Vector6d::Zero();  ///< of the object in the hand [m/s, rad/s], camera axes
   Matrix6d covariance = Matrix6d::Identity();  ///< of it, errors of the kinematics included
-  double statistic = 0.0;  ///< squared Mahalanobis length of the twist: about 6 at most times, far more in a slip
+  double statistic = 0.0;  ///< squared Mahalanobis length of the twist: below 2 at most times, 5 to 50 in a slip
   bool slipping = false;
 };
 

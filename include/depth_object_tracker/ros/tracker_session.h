@@ -4,6 +4,7 @@
 
 #include "depth_object_tracker/ros/camera_conversions.h"
 #include "depth_object_tracker/ros/frame_inbox.h"
+#include "depth_object_tracker/ros/hand_messages.h"
 #include "depth_object_tracker/ros/held_motion.h"
 #include "depth_object_tracker/ros/initial_pose_resolver.h"
 #include "depth_object_tracker/ros/object_source.h"
@@ -30,6 +31,7 @@ struct FrameOutcome {
   TrackerResult result;          ///< state and reason as they go into the status
   DepthImageView depth;          ///< valid as long as the image; empty when not processed
   PinholeCamera camera;
+  std::optional<HandReport> hand;  ///< while the object is held and follows the hand
 };
 
 /// How an initialisation that somebody waits for ended.
@@ -109,6 +111,7 @@ class TrackerSession {
   std::optional<ControlInput> controlFor(double stamp_s);
   void runTracker(FrameOutcome& outcome);
   void detectGrasp(const FrameOutcome& outcome);
+  void describeHand(FrameOutcome& outcome);
   void reportInput(FrameOutcome& outcome, bool is_restored);
   void answerWaiting(const FrameOutcome& outcome);
   TrackerResult refusedResult(const std::string& reason) const;
@@ -128,6 +131,7 @@ class TrackerSession {
   bool paused_ = false;
   bool distortion_reported_ = false;
   HeldMotion held_motion_;
+  KinematicCorrection correction_;
   TrackerResult last_result_;
   std::optional<double> last_stamp_s_;  // of the last image that the tracker saw
   std::string camera_frame_;
