@@ -20,6 +20,7 @@ add_library(depth_object_tracker_core SHARED
   src/geometry/pinhole_camera.cpp
   src/geometry/polygon_triangulation.cpp
   src/geometry/pose.cpp
+  src/geometry/shape_meshes.cpp
   src/geometry/simd_target.cpp
   src/geometry/surface_distance.cpp
   src/geometry/symmetry.cpp

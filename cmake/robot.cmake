@@ -14,11 +14,13 @@ else()
 endif()
 
 add_library(depth_object_tracker_robot SHARED
+  src/robot/arm_solver.cpp
   src/robot/grasp_detector.cpp
   src/robot/hand_motion.cpp
   src/robot/joint_state_buffer.cpp
   src/robot/kinematic_correction.cpp
   src/robot/link_chain.cpp
+  src/robot/link_meshes.cpp
   src/robot/robot_model.cpp
   src/robot/robot_state.cpp
   src/robot/twist_buffer.cpp

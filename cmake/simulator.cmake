@@ -13,7 +13,6 @@ add_library(depth_object_tracker_simulator SHARED
   src/simulator/robot_signals.cpp
   src/simulator/scene_simulator.cpp
   src/simulator/scene_writer.cpp
-  src/simulator/shape_meshes.cpp
   src/simulator/simulation_config.cpp
   src/simulator/smooth_motion.cpp
   src/simulator/static_world.cpp

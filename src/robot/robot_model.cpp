@@ -65,6 +65,7 @@ struct RobotModel::Data {
   KDL::Tree tree;
 
   JointRule ruleFor(const std::string& joint_name) const;
+  KDL::Chain chainTo(const std::string& link) const;
 };
 
 /// Follows the joints that this one mimics to the one that the robot reports.
@@ -144,12 +145,21 @@ std::set<std::string> RobotModel::continuousJoints() const {
   return names;
 }
 
-LinkChain RobotModel::chainTo(const std::string& link) const {
+KDL::Chain RobotModel::Data::chainTo(const std::string& link) const {
   KDL::Chain chain;
-  if (!hasLink(link) || !data_->tree.getChain(data_->root, link, chain)) {
-    throw RobotModelError("robot '" + name() + "' (from '" + source() + "') has no link '" + link +
-                          "'; its links are " + quoted(linkNames()));
-  }
+  if (urdf->links_.count(link) > 0 && tree.getChain(root, link, chain)) return chain;
+  std::vector<std::string> names;
+  for (const auto& entry : urdf->links_) names.push_back(entry.first);
+  throw RobotModelError("robot '" + urdf->getName() + "' (from '" + source + "') has no link '" + link +
+                        "'; its links are " + quoted(names));
+}
+
+ArmSolver RobotModel::solverFor(const std::string& link) const {
+  return ArmSolver(data_->chainTo(link));
+}
+
+LinkChain RobotModel::chainTo(const std::string& link) const {
+  const KDL::Chain chain = data_->chainTo(link);
   std::vector<JointRule> rules;
   for (const KDL::Segment& segment : chain.segments) {
     const KDL::Joint& joint = segment.getJoint();

@@ -71,6 +71,25 @@ TEST(RobotModel, TheShippedArmHasSevenJointsAndAHandOfThreeFingers) {
   for (const char* tip : {"finger_1_distal", "finger_2_distal", "finger_3_distal"}) EXPECT_TRUE(arm.hasLink(tip));
 }
 
+TEST(RobotModel, InverseKinematicsLeadBackToThePose) {
+  const RobotModel arm = RobotModel::fromFile(armFile());
+  const LinkChain chain = arm.chainTo("hand_link");
+  ArmSolver solver = arm.solverFor("hand_link");
+  const Eigen::VectorXd bent = (Eigen::VectorXd(7) << 0.3, 0.5, -0.2, 1.4, 0.3, 0.6, -0.4).finished();
+  const auto solved = solver.solve(chain.pose(bent), bent + Eigen::VectorXd::Constant(7, 0.1));
+  ASSERT_TRUE(solved);
+  EXPECT_LT(largestDifference(chain.pose(*solved), chain.pose(bent)), 1e-3);
+  EXPECT_FALSE(solver.solve(Pose(Eigen::Translation3d(3.0, 0.0, 0.0)), bent));
+}
+
+TEST(RobotModel, GravityPullsOnAStretchedArm) {
+  ArmSolver solver = RobotModel::fromFile(armFile()).solverFor("hand_link");
+  EXPECT_LT(solver.gravityTorques(Eigen::VectorXd::Zero(7)).cwiseAbs()[0], 1e-9);  // about the vertical axis
+  Eigen::VectorXd stretched = Eigen::VectorXd::Zero(7);
+  stretched[1] = M_PI_2;
+  EXPECT_GT(std::abs(solver.gravityTorques(stretched)[1]), 15.0);
+}
+
 TEST(RobotModel, SaysWhatIsWrongWithItsDescription) {
   const auto problem = [](const std::string& text) {
     return problemOf([&] { RobotModel::fromText(text, "robot_description"); });

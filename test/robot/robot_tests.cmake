@@ -9,6 +9,7 @@ add_tracker_test(robot_test
     ${CMAKE_CURRENT_LIST_DIR}/hand_motion_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/joint_state_buffer_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/kinematic_correction_test.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/link_meshes_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/robot_model_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/robot_state_test.cpp
   LIBRARIES depth_object_tracker_robot tinyxml2)

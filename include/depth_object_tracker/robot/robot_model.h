@@ -2,6 +2,7 @@
 // A robot's links and joints from its URDF.
 #pragma once
 
+#include "depth_object_tracker/robot/arm_solver.h"
 #include "depth_object_tracker/robot/link_chain.h"
 
 #include <memory>
@@ -45,6 +46,9 @@ class RobotModel {
   /// From the root link to `link`.
   /// @throws RobotModelError naming the link, and the nearest names there are.
   LinkChain chainTo(const std::string& link) const;
+
+  /// The same for simulation. Joints that mimic others are taken to be free.
+  ArmSolver solverFor(const std::string& link) const;
 
   /// Visuals, collision shapes, limits.
   const urdf::ModelInterface& description() const;
