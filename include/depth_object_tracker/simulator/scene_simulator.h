@@ -29,6 +29,8 @@ struct SimulatedFrame {
   }
 };
 
+class RobotArm;
+
 /// Deterministic for a config and a sequence of stamps. Not thread-safe.
 class SceneSimulator {
  public:
@@ -47,6 +49,9 @@ class SceneSimulator {
   Pose roughInitialPose(double error_m = 0.005, double error_rad = 0.07);
 
   const SimulationConfig& config() const;
+
+  /// The robot of a config with `robot_urdf`; null without. Its functions may be called from another thread.
+  RobotArm* robot();
 
  private:
   class Implementation;
