@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/ros/simulator_options.h"
 
+#include "depth_object_tracker/geometry/mesh_loader.h"
+#include "depth_object_tracker/ros/object_source.h"
 #include "depth_object_tracker/ros/option_reader.h"
 
 namespace depth_object_tracker {
@@ -25,6 +27,13 @@ SimulatorOptions loadSimulatorOptions(const ros::NodeHandle& private_node) {
   reader.readName("scenario", scenarioFromName, options.simulation.scenario);
   reader.readName("speed", speedFromName, options.simulation.speed);
   reader.readName("occluders", occludersFromName, options.simulation.occluders);
+  std::string urdf;
+  reader.read("robot_urdf", "the path of a URDF file", urdf);
+  try {
+    if (!urdf.empty()) options.simulation.robot_urdf = resolveMeshUri(urdf, findPackage);
+  } catch (const MeshError& error) {
+    options.problems.push_back("parameter '" + private_node.resolveName("robot_urdf") + "': " + error.what());
+  }
   int seed = 1;
   reader.read("seed", "a whole number", seed);
   options.simulation.seed = static_cast<std::uint64_t>(seed);

@@ -22,11 +22,11 @@ struct SimulatedJoints {
 };
 
 /// The encoders sit at the motors: each true joint is its motor plus a stretch of cables and links, which grows with
-/// the torque that gravity asks of it and is 15 mm at the hand in the mean, and, with `pushed`, the yielding to
+/// the torque that gravity asks of it and is 18 mm at the hand in the mean, and, with `pushed`, the yielding to
 /// somebody who pushes the arm now and then. Thread-safe: images and joint states are published by different threads.
 class RobotArm {
  public:
-  static constexpr double kMeanStretchM = 0.015;
+  static constexpr double kMeanStretchM = 0.018;
   static constexpr const char* kHandLink = "hand_link";
 
   /// Finds a base, a grasp and joints that take the object along its path.
