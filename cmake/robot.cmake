@@ -22,6 +22,7 @@ add_library(depth_object_tracker_robot SHARED
   src/robot/link_chain.cpp
   src/robot/link_meshes.cpp
   src/robot/robot_model.cpp
+  src/robot/robot_occluder.cpp
   src/robot/robot_state.cpp
   src/robot/twist_buffer.cpp
 )

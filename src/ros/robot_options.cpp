@@ -31,6 +31,7 @@ RobotOptions loadRobotOptions(const ros::NodeHandle& private_node) {
   OptionReader reader(private_node, options.problems);
   reader.read("robot", "true or false", options.enabled);
   reader.read("urdf_file", "the path of a URDF file", options.urdf_file);
+  reader.read("robot_occluder", "true or false", options.use_links_as_occluders);
   reader.read("robot_base_frame", "the name of a tf frame", options.config.base_frame);
   reader.readNumber("joint_time_offset_s", -1.0, 1.0, options.config.state.joint_time_offset_s);
   reader.readNumber("max_joint_age_s", 0.001, 1.0, options.config.state.max_joint_age_s);
@@ -54,6 +55,12 @@ BuiltRobot buildRobot(const RobotOptions& options, const ros::NodeHandle& privat
   if (built.problem.empty()) {
     try {
       built.connection = std::make_shared<RobotConnection>(loadModel(options, private_node), options.config, tf);
+      if (options.use_links_as_occluders) {
+        const RobotModel& model = built.connection->model();
+        const LinkMeshes meshes = loadLinkMeshes(model, LinkShapes::kCollision, findPackage);
+        built.warnings = meshes.problems;
+        built.occluder = std::make_shared<RobotOccluder>(model, meshes);
+      }
       if (!options.grasp_detection.link.empty()) {
         built.connection->model().chainTo(options.grasp_detection.link);  // throws when there is none
         built.grasp_detector = std::make_shared<GraspDetector>(options.grasp_detection);

@@ -72,6 +72,7 @@ void TrackerSession::setRobot(BuiltRobot robot) {
   if (robot.connection) {
     log_.info("robot '" + robot.connection->model().name() + "' from '" + robot.connection->model().source() + "'");
   }
+  for (const std::string& warning : robot.warnings) log_.warn(warning);
   held_motion_.setRobot(std::move(robot));
 }
 
@@ -193,7 +194,8 @@ void TrackerSession::runTracker(FrameOutcome& outcome) {
   const bool is_restored = restoreGivenPose(stamp_s);
   object_.tracker->setEffort(budget_.effort());
   const Clock::time_point begin = Clock::now();
-  outcome.result = object_.tracker->update(outcome.depth, outcome.camera, stamp_s, controlFor(stamp_s));
+  outcome.result =
+      object_.tracker->update(outcome.depth, outcome.camera, stamp_s, controlFor(stamp_s), placeOccluders(stamp_s));
   if (outcome.result.input == TrackerResult::Input::kUsed) {
     budget_.frameTook(std::chrono::duration<double>(Clock::now() - begin).count());
   }
@@ -210,6 +212,15 @@ void TrackerSession::runTracker(FrameOutcome& outcome) {
   if (outcome.processed) describeHand(outcome);
   if (outcome.processed) detectGrasp(outcome);
   answerWaiting(outcome);
+}
+
+/// The robot's links for this image; null where it is not known where they are.
+KnownOccluders* TrackerSession::placeOccluders(double stamp_s) {
+  if (held_motion_.occluder() == nullptr) return nullptr;
+  const LinkInCamera root = held_motion_.robot()->locateRoot(camera_frame_, stamp_s);
+  if (!root.problem.empty()) return nullptr;
+  const std::size_t placed = held_motion_.occluder()->place(held_motion_.robot()->state(), root.T_camera_link, stamp_s);
+  return placed > 0 ? held_motion_.occluder() : nullptr;
 }
 
 /// What the held object says of the hand. Nothing is concluded from an object that is not seen.

@@ -74,7 +74,7 @@ class ObjectTracker::Implementation {
         search(config.filter.seed) {}
 
   TrackerResult update(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s,
-                       const std::optional<ControlInput>& control);
+                       const std::optional<ControlInput>& control, KnownOccluders* occluders);
 
   Pose toObject(const Pose& T_camera_centre) const {
     Pose T_camera_object = T_camera_centre;
@@ -122,7 +122,8 @@ class ObjectTracker::Implementation {
 };
 
 TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth, const PinholeCamera& camera,
-                                                    double stamp_s, const std::optional<ControlInput>& control) {
+                                                    double stamp_s, const std::optional<ControlInput>& control,
+                                                    KnownOccluders* occluders) {
   Stopwatch stopwatch;
   if (!checkInput(depth, camera, stamp_s)) return result;
   if (status.state() == TrackerState::kUninitialized) return result;
@@ -132,6 +133,9 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
   if (full_resolution_pixels <= 0.0) full_resolution_pixels = projectedPixels(camera);
   const SamplingGrid grid = makeSamplingGrid(camera, resolution.choose(full_resolution_pixels, std::sqrt(effort)));
   likelihood.setImage(depth, grid, time.dt_s);
+  if (occluders != nullptr && config.pixel.known_occluder_p_occluded > 0.0) {
+    likelihood.setOccluders(occluders->render(grid.camera));
+  }
 
   const double exponent = likelihoodExponent(config.filter, grid.factor);
   std::vector<Pose> hypotheses;
@@ -352,8 +356,8 @@ void ObjectTracker::setEffort(double effort) {
 }
 
 TrackerResult ObjectTracker::update(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s,
-                                    const std::optional<ControlInput>& control) {
-  return implementation_->update(depth, camera, stamp_s, control);
+                                    const std::optional<ControlInput>& control, KnownOccluders* occluders) {
+  return implementation_->update(depth, camera, stamp_s, control, occluders);
 }
 
 ParticlePoses ObjectTracker::particles() const {

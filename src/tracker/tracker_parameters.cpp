@@ -33,6 +33,8 @@ Bindings measurementBindings() {
     bindNumber(FIELD(pixel, edge_stddev_px), 0.0, 10.0, "how well the camera sees where an outline is, full-resolution pixels; 0 = to the pixel (the paper)"),
     bindNumber(FIELD(pixel, tail_weight), 1e-6, 0.5, "share of readings that may be anything between 0 and max_depth_m"),
     bindNumber(FIELD(pixel, max_depth_m), 0.1, 100.0, "readings beyond are treated as missing"),
+    bindNumber(FIELD(pixel, known_occluder_p_occluded), 0.0, 0.99, "least probability of occlusion behind a known occluder (a link of the robot); 0 = they are ignored"),
+    bindNumber(FIELD(pixel, known_occluder_margin_m), 0.0, 1.0, "how well the place of a known occluder is known: what is less far behind it is not behind it"),
     bindNumber(FIELD(pixel, min_p_occluded_in_front), 0.0, 0.99, "least probability of occlusion for readings far in front of the object; 0 = unused (the paper)"),
     bindNumber(FIELD(pixel, occluder_half_life_m), 0.01, 100.0, "distance over which the density of occluders halves"),
     bindNumber(FIELD(occlusion, p_visible_given_visible), 0.001, 0.999, "probability that a visible pixel is visible one second later; more than p_visible_given_occluded"),
@@ -105,7 +107,8 @@ Bindings operationBindings() {
 const Bindings& bindings() {
   static const Bindings all = [] {
     Bindings list;
-    for (Bindings (*group)() : {measurementBindings, processBindings, slipBindings, filterBindings, operationBindings}) {
+    for (Bindings (*group)() :
+         {measurementBindings, processBindings, slipBindings, filterBindings, operationBindings}) {
       for (ParameterBinding& binding : group()) list.push_back(std::move(binding));
     }
     return list;

@@ -39,6 +39,9 @@ class DepthLikelihood : public PoseLikelihood {
   /// other than the last one's forgets them. The view must stay valid until the next call.
   void setImage(const DepthImageView& view, const SamplingGrid& grid, double dt_s);
 
+  /// Known occluders for this image; see MeasuredImage.
+  void setOccluders(const std::vector<float>& depth_m) { image_.setOccluders(depth_m); }
+
   /// Forgets all beliefs about occlusion.
   void resetOcclusion() { memory_.reset(); }
 

@@ -26,6 +26,7 @@ class HeldMotion {
   /// Without this, or with its problem, links cannot be followed.
   void setRobot(BuiltRobot robot) { robot_ = std::move(robot); }
   RobotConnection* robot() const { return robot_.connection.get(); }
+  RobotOccluder* occluder() const { return robot_.occluder.get(); }
   GraspDetector* graspDetector() const { return robot_.grasp_detector.get(); }
 
   /// @return empty, or why the motion of what this link holds cannot be known.

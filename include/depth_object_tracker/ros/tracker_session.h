@@ -112,6 +112,7 @@ class TrackerSession {
   void runTracker(FrameOutcome& outcome);
   void detectGrasp(const FrameOutcome& outcome);
   void describeHand(FrameOutcome& outcome);
+  KnownOccluders* placeOccluders(double stamp_s);
   void reportInput(FrameOutcome& outcome, bool is_restored);
   void answerWaiting(const FrameOutcome& outcome);
   TrackerResult refusedResult(const std::string& reason) const;
