@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/robot/link_meshes.h"
 
+#include "depth_object_tracker/robot/robot_occluder.h"
+
 #include "test_robots.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace depth_object_tracker {
 namespace {
@@ -46,6 +50,22 @@ TEST(LinkMeshes, AShapeThatCannotBeReadIsNamed) {
   EXPECT_NE(meshes.problems[0].find("'a'"), std::string::npos) << meshes.problems[0];
   EXPECT_NE(meshes.problems[0].find("/nowhere/a.stl"), std::string::npos) << meshes.problems[0];
   EXPECT_TRUE(meshes.links.empty());
+}
+
+TEST(RobotOccluder, DrawsItsLinksWhereTheJointsHaveThem) {
+  const RobotModel model = RobotModel::fromText(shapedRobot("<box size='0.2 0.4 0.6'/>"), "test");
+  RobotState state(model, RobotStateConfig());
+  RobotOccluder occluder(model, loadLinkMeshes(model, LinkShapes::kVisual));
+  const PinholeCamera camera{64, 48, 60.0, 60.0, 31.5, 23.5};
+  const auto numDrawn = [&] {
+    const std::vector<float>& depth = occluder.render(camera);
+    EXPECT_EQ(depth.size(), 64u * 48u);
+    return std::count_if(depth.begin(), depth.end(), [](float d) { return d > 0.0f; });
+  };
+  EXPECT_EQ(numDrawn(), 0) << "nobody has said where the links are";
+  EXPECT_EQ(occluder.place(state, Pose(Eigen::Translation3d(-1.0, -2.0, -1.0)), 10.0), 1u);
+  EXPECT_GT(numDrawn(), 50);
+  EXPECT_NEAR(occluder.render(camera)[24 * 64 + 32], 2.0f - 0.3f, 1e-5f);
 }
 
 TEST(LinkMeshes, EveryLinkOfTheShippedArmHasAShape) {

@@ -217,6 +217,21 @@ TEST_F(RobotSessionTest, TellsWhereTheHandIsWhenTheKinematicsAreWrong) {
   EXPECT_EQ(toCorrectionTransform(*outcome.hand, outcome.header.stamp).child_frame_id, "hand_link_observed");
 }
 
+TEST_F(RobotSessionTest, ItsOwnLinksDoNotDisturb) {
+  const RobotModel model = RobotModel::fromFile(armFile());
+  BuiltRobot robot;
+  robot.connection = std::make_shared<RobotConnection>(model, RobotConnectionConfig(), tf_);
+  robot.occluder = std::make_shared<RobotOccluder>(model, loadLinkMeshes(model, LinkShapes::kCollision));
+  session_.setRobot(robot);
+  initialise(arm_.T_camera_object(stamp_s_));
+  for (int k = 0; k < 20; ++k) {  // before tf is there, and after
+    if (k == 5) mountCamera();
+    const double now_s = stamp_s_;
+    moveJointsUntil(now_s);
+    EXPECT_LT(errorM(step(true, arm_.T_camera_object(now_s)), arm_.T_camera_object(now_s)), 0.003) << "frame " << k;
+  }
+}
+
 TEST_F(RobotSessionTest, DetectsAGraspByTheGrippersJoint) {
   GraspDetectorConfig detection;
   detection.link = "hand_link";
