@@ -32,8 +32,6 @@ struct BuiltRobot {
   std::string problem;                                ///< what was read, what is wrong, what to do
   std::shared_ptr<RobotOccluder> occluder = nullptr;  ///< null = off
   std::vector<std::string> warnings = {};             ///< what is left out, one sentence each
-};                                                    ///< what is left out, one sentence each
-std::string problem;                                  ///< what was read, what is wrong, what to do
 };
 
 /// Never throws. @param tf outlives the connection.
