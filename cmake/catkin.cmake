@@ -1,6 +1,6 @@
 # Finds catkin where the ROS layer is wanted: WITH_ROS, messages, and the folders of the devel space. Adds no target of ours.
 set(ROS_COMPONENTS diagnostic_msgs diagnostic_updater dynamic_reconfigure geometry_msgs image_transport
-  interactive_markers message_generation nodelet pluginlib rosbag roscpp roslib sensor_msgs
+  interactive_markers kdl_parser message_generation nodelet pluginlib rosbag roscpp roslib sensor_msgs
   std_msgs std_srvs tf2_ros visualization_msgs)
 
 # ros_find_python(): catkin's tools need a python3 that knows catkin_pkg; another one often stands first on the PATH.
@@ -64,8 +64,8 @@ add_custom_command(OUTPUT ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_INCLUDE_DESTIN
 
 catkin_package(
   INCLUDE_DIRS include
-  LIBRARIES depth_object_tracker_core depth_object_tracker_ros
+  LIBRARIES depth_object_tracker_core depth_object_tracker_robot depth_object_tracker_ros
   CATKIN_DEPENDS diagnostic_msgs diagnostic_updater dynamic_reconfigure geometry_msgs image_transport
-    interactive_markers message_runtime nodelet pluginlib rosbag roscpp roslib sensor_msgs std_msgs
+    interactive_markers kdl_parser message_runtime nodelet pluginlib rosbag roscpp roslib sensor_msgs std_msgs
     std_srvs tf2_ros visualization_msgs
   DEPENDS EIGEN3)

@@ -22,6 +22,7 @@ add_library(depth_object_tracker_core SHARED
   src/geometry/pinhole_camera.cpp
   src/geometry/polygon_triangulation.cpp
   src/geometry/pose.cpp
+  src/geometry/shape_meshes.cpp
   src/geometry/simd_target.cpp
   src/geometry/surface_distance.cpp
   src/geometry/symmetry.cpp
@@ -30,6 +31,7 @@ add_library(depth_object_tracker_core SHARED
   src/model/occlusion_chain.cpp
   src/model/pixel_likelihood.cpp
   src/model/process_model.cpp
+  src/model/slip_estimator.cpp
   src/render/depth_renderer.cpp
   src/render/depth_tile.cpp
   src/render/face_set.cpp

@@ -3,6 +3,7 @@ if(WITH_ROS)
   install(TARGETS
     depth_object_tracker_core
     depth_object_tracker_nodelets
+    depth_object_tracker_robot
     depth_object_tracker_ros
     depth_object_tracker_ros_simulator
     depth_object_tracker_simulator
@@ -15,7 +16,7 @@ if(WITH_ROS)
   endif()
   install(TARGETS demo_monitor pose_marker scene_to_bag simulate_scene simulator_node track_sequence tracker_node
     RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-  catkin_install_python(PROGRAMS scripts/evaluate scripts/plot_benchmark scripts/play_bag
+  catkin_install_python(PROGRAMS scripts/evaluate scripts/plot_benchmark scripts/play_bag scripts/relay_joint_commands scripts/slip_roc
     DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   install(DIRECTORY scripts/evaluation DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION} FILES_MATCHING PATTERN *.py)
   if(TARGET track_icp)
@@ -26,6 +27,9 @@ if(WITH_ROS)
 else()
   #catkin_lint: skip
   include(GNUInstallDirs)
+  if(WITH_ROBOT)
+    install(TARGETS depth_object_tracker_robot LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  endif()
   install(TARGETS
     depth_object_tracker_core
     depth_object_tracker_simulator

@@ -4,11 +4,11 @@ if(NOT WITH_ROS)
 endif()
 
 add_library(depth_object_tracker_ros SHARED
-  src/robot/twist_buffer.cpp
   src/ros/camera_conversions.cpp
   src/ros/camera_info_matcher.cpp
   src/ros/drop_watch.cpp
   src/ros/frame_inbox.cpp
+  src/ros/hand_messages.cpp
   src/ros/held_motion.cpp
   src/ros/image_conversions.cpp
   src/ros/initial_pose_marker.cpp
@@ -25,6 +25,8 @@ add_library(depth_object_tracker_ros SHARED
   src/ros/rate_meter.cpp
   src/ros/result_publisher.cpp
   src/ros/self_check.cpp
+  src/ros/robot_connection.cpp
+  src/ros/robot_options.cpp
   src/ros/status_builder.cpp
   src/ros/status_reason.cpp
   src/ros/tracker_diagnostics.cpp
@@ -38,7 +40,7 @@ target_include_directories(depth_object_tracker_ros PUBLIC include)
 # SYSTEM: warnings in the headers of other packages are not ours to mend.
 target_include_directories(depth_object_tracker_ros SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
 target_link_libraries(depth_object_tracker_ros
-  PUBLIC depth_object_tracker_core ${catkin_LIBRARIES}
+  PUBLIC depth_object_tracker_robot ${catkin_LIBRARIES}
   PRIVATE depth_object_tracker_warnings nlohmann_json::nlohmann_json)
 add_dependencies(depth_object_tracker_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 

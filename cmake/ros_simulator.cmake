@@ -4,6 +4,7 @@ if(NOT WITH_ROS)
 endif()
 
 add_library(depth_object_tracker_ros_simulator SHARED
+  src/ros/simulator_joints.cpp
   src/ros/simulator_monitor.cpp
   src/ros/simulator_nodelet.cpp
   src/ros/simulator_options.cpp

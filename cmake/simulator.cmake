@@ -13,11 +13,18 @@ add_library(depth_object_tracker_simulator SHARED
   src/simulator/robot_signals.cpp
   src/simulator/scene_simulator.cpp
   src/simulator/scene_writer.cpp
-  src/simulator/shape_meshes.cpp
   src/simulator/simulation_config.cpp
   src/simulator/smooth_motion.cpp
   src/simulator/static_world.cpp
 )
+if(WITH_ROBOT)
+  target_sources(depth_object_tracker_simulator PRIVATE
+    src/simulator/finger_closer.cpp
+    src/simulator/joint_trajectory.cpp
+    src/simulator/robot_arm.cpp)
+  target_compile_definitions(depth_object_tracker_simulator PRIVATE DEPTH_OBJECT_TRACKER_HAVE_ROBOT)
+  target_link_libraries(depth_object_tracker_simulator PUBLIC depth_object_tracker_robot)
+endif()
 target_include_directories(depth_object_tracker_simulator PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/cmake/no_ros)
 target_link_libraries(depth_object_tracker_simulator
   PUBLIC depth_object_tracker_core

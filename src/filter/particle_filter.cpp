@@ -42,6 +42,10 @@ void ParticleFilter::stopMotion() {
   for (Vector6d& velocity : velocities_) velocity.setZero();
 }
 
+void ParticleFilter::shiftVelocities(const Vector6d& shift) {
+  for (Vector6d& velocity : velocities_) velocity += shift;
+}
+
 FilterEstimate ParticleFilter::update(PoseLikelihood& likelihood, const ProcessStep& step, double likelihood_exponent,
                                       const std::vector<Pose>& hypotheses) {
   FilterEstimate estimate;

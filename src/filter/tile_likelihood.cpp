@@ -42,8 +42,13 @@ bool readCell(const DepthTile& tile, const PixelPlanes& planes, int row, int col
   const int in_image = (tile.row_begin + row) * planes.stride + tile.col_begin + col;
   cell.coverage = tile.coverage()[in_tile];
   cell.depth = tile.soft_depth()[in_tile];
-  cell.pixel = {planes.depth[in_image], planes.inverse_stddev[in_image], planes.visible_peak[in_image],
-                planes.tail[in_image],  planes.occluded_shift[in_image], planes.occluded_floor[in_image]};
+  cell.pixel = {planes.depth[in_image],
+                planes.inverse_stddev[in_image],
+                planes.visible_peak[in_image],
+                planes.tail[in_image],
+                planes.occluded_shift[in_image],
+                planes.occluded_floor[in_image],
+                planes.occluder_limit != nullptr ? planes.occluder_limit[in_image] : kNoOccluder};
   return cell.coverage > 0.0f && cell.pixel.depth > 0.0f;
 }
 

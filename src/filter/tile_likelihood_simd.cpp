@@ -106,7 +106,7 @@ HWY_INLINE V vectorNormalTail(V x, V bell) {
 struct Cells {
   M valid;
   V coverage, depth;
-  V z, inverse_stddev, visible_peak, tail, shift, floor;
+  V z, inverse_stddev, visible_peak, tail, shift, floor, occluder_limit;
 };
 
 struct Terms {
@@ -128,6 +128,7 @@ HWY_INLINE Cells readCells(const DepthTile& tile, const PixelPlanes& planes, int
   cells.visible_peak = read(planes.visible_peak);
   cells.tail = read(planes.tail);
   cells.shift = read(planes.occluded_shift);
+  cells.occluder_limit = planes.occluder_limit != nullptr ? read(planes.occluder_limit) : set(kNoOccluder);
   return cells;
 }
 
@@ -170,8 +171,12 @@ HWY_INLINE Terms cellTerms(const Cells& cells, const TileLikelihoodInput& input,
   const V believed = hn::Add(set(input.belief.stationary), hn::Mul(set(input.belief.scale), stored));
   const V ramp = hn::Mul(hn::Sub(t, set(kInFrontBegin)), set(1.0f / (kInFrontEnd - kInFrontBegin)));
   const V share = hn::Min(hn::Max(ramp, zero), one);
-  const V least = hn::Mul(set(input.model.min_p_occluded_in_front),
-                          hn::Mul(hn::Mul(share, share), hn::Sub(set(3.0f), hn::Add(share, share))));
+  V least = hn::Mul(set(input.model.min_p_occluded_in_front),
+                    hn::Mul(hn::Mul(share, share), hn::Sub(set(3.0f), hn::Add(share, share))));
+  if (input.planes.occluder_limit != nullptr) {
+    const M is_behind = hn::Gt(cells.depth, cells.occluder_limit);
+    least = hn::Max(least, hn::IfThenElse(is_behind, set(input.model.known_occluder_p_occluded), zero));
+  }
   terms.p_occluded = hn::Max(believed, least);
   terms.hit =
       hn::Add(hn::Mul(hn::Sub(one, terms.p_occluded), terms.visible), hn::Mul(terms.p_occluded, terms.occluded));

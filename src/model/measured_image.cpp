@@ -21,17 +21,32 @@ CellBox wholeTiles(const CellBox& box) {
 MeasuredImage::MeasuredImage(const PixelModelConfig& config)
     : config_(config),
       model_{static_cast<float>(config.min_p_occluded_in_front), static_cast<float>(occluderRate(config)),
-             config.occluder_model == OccluderModel::kPaper} {}
+             config.occluder_model == OccluderModel::kPaper, static_cast<float>(config.known_occluder_p_occluded)} {}
 
 void MeasuredImage::setImage(const DepthImageView& view, const SamplingGrid& grid) {
   view_ = view;
   grid_ = grid;
   prepared_ = CellBox();
+  has_occluders_ = false;
   const CellBox padded = wholeTiles(imageBox());
   stride_ = static_cast<std::size_t>(padded.cols());
   const std::size_t num_cells = stride_ * static_cast<std::size_t>(padded.rows());
   for (auto* plane : {&depth_, &inverse_stddev_, &visible_peak_, &tail_, &occluded_shift_, &occluded_floor_}) {
     if (plane->size() != num_cells) plane->assign(num_cells, 0.0f);
+  }
+}
+
+void MeasuredImage::setOccluders(const std::vector<float>& depth_m) {
+  const auto rows = static_cast<std::size_t>(grid_.camera.height), cols = static_cast<std::size_t>(grid_.camera.width);
+  has_occluders_ = depth_m.size() == rows * cols && model_.known_occluder_p_occluded > 0.0f;
+  if (!has_occluders_) return;
+  occluder_limit_.assign(depth_.size(), kNoOccluder);
+  const auto margin = static_cast<float>(config_.known_occluder_margin_m);
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t col = 0; col < cols; ++col) {
+      const float depth = depth_m[row * cols + col];
+      if (depth > 0.0f) occluder_limit_[row * stride_ + col] = depth + margin;
+    }
   }
 }
 
@@ -99,12 +114,24 @@ void MeasuredImage::computeFloor(std::size_t begin, std::size_t count) {
 
 MeasuredPixel MeasuredImage::pixel(int row, int col) const {
   const std::size_t i = static_cast<std::size_t>(row) * stride_ + static_cast<std::size_t>(col);
-  return {depth_[i], inverse_stddev_[i], visible_peak_[i], tail_[i], occluded_shift_[i], occluded_floor_[i]};
+  return {depth_[i],
+          inverse_stddev_[i],
+          visible_peak_[i],
+          tail_[i],
+          occluded_shift_[i],
+          occluded_floor_[i],
+          has_occluders_ ? occluder_limit_[i] : kNoOccluder};
 }
 
 PixelPlanes MeasuredImage::planes() const {
-  return {depth_.data(),          inverse_stddev_.data(), visible_peak_.data(),     tail_.data(),
-          occluded_shift_.data(), occluded_floor_.data(), static_cast<int>(stride_)};
+  return {depth_.data(),
+          inverse_stddev_.data(),
+          visible_peak_.data(),
+          tail_.data(),
+          occluded_shift_.data(),
+          occluded_floor_.data(),
+          static_cast<int>(stride_),
+          has_occluders_ ? occluder_limit_.data() : nullptr};
 }
 
 double MeasuredImage::validFraction() const {
@@ -140,7 +167,8 @@ float believedOcclusion(const PixelModel& model, float p_occluded, const Measure
   const float t = (rendered_depth_m - pixel.depth) * pixel.inverse_stddev;
   const float share = std::min(std::max((t - kInFrontBegin) * (1.0f / (kInFrontEnd - kInFrontBegin)), 0.0f), 1.0f);
   const float floor = model.min_p_occluded_in_front * ((share * share) * (3.0f - (share + share)));
-  return p_occluded > floor ? p_occluded : floor;
+  const float known = rendered_depth_m > pixel.occluder_limit ? model.known_occluder_p_occluded : 0.0f;
+  return std::max(p_occluded, std::max(floor, known));
 }
 
 }  // namespace depth_object_tracker

@@ -21,21 +21,24 @@ double ProcessComponent::logDensity(const Vector6d& displacement) const {
 }
 
 ProcessStep::ProcessStep(const ProcessConfig& config, double dt_s, const std::optional<ControlInput>& control,
-                         const Eigen::Vector3d& centre_object, double diffusion_scale)
-    : dt_s_(std::clamp(dt_s, 0.0, config.max_gap_s)), control_(control), centre_object_(centre_object) {
-  if (control_ && !control_->grasped) control_.reset();
-  if (dt_s <= config.max_gap_s && config.velocity_half_life_s > 0.0) {
-    const double rate = M_LN2 / config.velocity_half_life_s;
+                         const Eigen::Vector3d& centre_object, double diffusion_scale, double slip_scale)
+    : dt_s_(std::clamp(dt_s, 0.0, config.max_gap_s)),
+      control_dt_s_(std::max(dt_s, 0.0)),
+      centre_object_(centre_object) {
+  if (control && control->isFollowed()) control_ = control;
+  const double half_life_s = control_ ? config.grasped_velocity_half_life_s : config.velocity_half_life_s;
+  if (dt_s <= config.max_gap_s && half_life_s > 0.0) {
+    const double rate = M_LN2 / half_life_s;
     velocity_decay_ = std::exp(-rate * dt_s_);
     velocity_displacement_s_ = -std::expm1(-rate * dt_s_) / rate;
   }
   const auto square = [](double x) { return x * x; };
   Vector6d variances;
-  if (control_ && control_->has_twist) {
-    variances.head<3>().setConstant(square(config.grasped_position_noise_m_per_sqrt_s) * dt_s_ +
-                                    square(config.grasped_position_bias_m_per_s * dt_s_));
-    variances.tail<3>().setConstant(square(config.grasped_rotation_noise_rad_per_sqrt_s) * dt_s_ +
-                                    square(config.grasped_rotation_bias_rad_per_s * dt_s_));
+  if (control_) {
+    variances.head<3>().setConstant(square(config.grasped_position_noise_m_per_sqrt_s * slip_scale) * dt_s_ +
+                                    square(config.grasped_position_bias_m_per_s * slip_scale * dt_s_));
+    variances.tail<3>().setConstant(square(config.grasped_rotation_noise_rad_per_sqrt_s * slip_scale) * dt_s_ +
+                                    square(config.grasped_rotation_bias_rad_per_s * slip_scale * dt_s_));
   } else {
     variances.head<3>().setConstant(square(config.position_noise_m_per_sqrt_s * diffusion_scale) * dt_s_);
     variances.tail<3>().setConstant(square(config.rotation_noise_rad_per_sqrt_s * diffusion_scale) * dt_s_);
@@ -64,17 +67,17 @@ void ProcessStep::excludeSuddenMotion() {
 }
 
 Pose ProcessStep::predict(const Pose& T_camera_centre, const Vector6d& velocity) const {
+  return perturb(T_camera_centre, controlDisplacement(T_camera_centre) + velocity * velocity_displacement_s_);
+}
+
+Vector6d ProcessStep::controlDisplacement(const Pose& T_camera_centre) const {
+  if (!control_) return Vector6d::Zero();
+  // The control speaks of the mesh origin; the filter's point moves along with omega x (R c), here for a whole turn.
+  const Eigen::Vector3d lever = T_camera_centre.linear() * centre_object_;
+  const Eigen::Vector3d rotation = control_->angular_rad_s * control_dt_s_;
   Vector6d displacement;
-  if (control_) {
-    // The control speaks of the mesh origin; the filter's point moves along with omega x (R c).
-    const Eigen::Vector3d lever = T_camera_centre.linear() * centre_object_;
-    const Eigen::Vector3d linear = control_->linear_m_s + control_->angular_rad_s.cross(lever);
-    displacement << linear * dt_s_, control_->angular_rad_s * dt_s_;
-    if (!control_->has_twist) displacement.setZero();
-  } else {
-    displacement = velocity * velocity_displacement_s_;
-  }
-  return perturb(T_camera_centre, displacement);
+  displacement << control_->linear_m_s * control_dt_s_ + expSo3(rotation) * lever - lever, rotation;
+  return displacement;
 }
 
 Vector6d ProcessStep::dampedVelocity(const Vector6d& velocity) const {

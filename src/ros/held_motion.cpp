@@ -12,10 +12,20 @@ constexpr double kLiveTwistAgeS = 0.2;  // a stream of twists that is older than
 
 }  // namespace
 
+std::string HeldMotion::findLinkProblem(const std::string& link) const {
+  if (link.empty()) return "";
+  if (robot_.connection) return robot_.connection->findLinkProblem(link);
+  if (!robot_.problem.empty()) return robot_.problem;
+  return "the motion of link '" + link +
+         "' is not known: ~robot is false. Set it to true with the robot's URDF in robot_description, or leave link "
+         "empty and publish the object's twist on control_twist";
+}
+
 void HeldMotion::setGrasp(bool grasped, const std::string& link) {
   if (grasped && !grasped_) twists_.clear();  // what was commanded before did not move the object
   grasped_ = grasped;
   link_ = link;
+  link_problem_ = grasped ? findLinkProblem(link) : "";
 }
 
 std::string HeldMotion::addTwist(const geometry_msgs::TwistStamped& twist, const std::string& camera_frame,
@@ -40,23 +50,38 @@ std::string HeldMotion::addTwist(const geometry_msgs::TwistStamped& twist, const
   return twists_.add(sample) ? "" : "control_twist is ignored: it holds a number that is not finite";
 }
 
-bool HeldMotion::awaitsTwist(double stamp_s) const {
+bool HeldMotion::awaitsControl(double stamp_s, const std::string& camera_frame) const {
+  if (followsLink()) return robot()->awaits(link_, camera_frame, stamp_s);
   const auto newest_s = twists_.newestStamp();
-  return followsTwist() && newest_s && *newest_s<stamp_s&& * newest_s> stamp_s - kLiveTwistAgeS;
+  return followsTwist() && newest_s && stamp_s > *newest_s && stamp_s - *newest_s < kLiveTwistAgeS;
 }
 
-std::optional<ControlInput> HeldMotion::control(double from_s, double to_s) const {
-  if (!grasped_) return std::nullopt;
-  ControlInput control;
-  control.grasped = true;
-  control.has_twist = false;
-  const auto mean = link_.empty() ? twists_.mean(from_s, to_s) : std::nullopt;
-  if (mean) {
-    control.has_twist = true;
-    control.linear_m_s = mean->linear_m_s;
-    control.angular_rad_s = mean->angular_rad_s;
+HeldControl HeldMotion::control(double from_s, double to_s, const std::string& camera_frame,
+                                const Pose& T_camera_object) const {
+  HeldControl held;
+  if (!grasped_) return held;
+  held.control.emplace();
+  held.control->grasped = true;
+  held.control->has_twist = false;
+  if (followsLink()) {
+    const HandControl hand = robot()->control(link_, camera_frame, from_s, to_s, T_camera_object);
+    held.control = hand.control;
+    held.problem = hand.problem;
+  } else if (followsTwist()) {
+    const auto mean = twists_.mean(from_s, to_s);
+    held.control->has_twist = mean.has_value();
+    if (!mean) held.problem = "control_twist says nothing about the time of the image; check the topic and its stamps";
+    if (mean) held.control->linear_m_s = mean->linear_m_s;
+    if (mean) held.control->angular_rad_s = mean->angular_rad_s;
+  } else {
+    held.problem = link_problem_;
   }
-  return control;
+  return held;
+}
+
+void HeldMotion::forget() {
+  twists_.clear();
+  if (robot()) robot()->forget();
 }
 
 }  // namespace depth_object_tracker

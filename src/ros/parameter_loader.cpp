@@ -112,7 +112,6 @@ NodeletOptions loadNodeletOptions(const ros::NodeHandle& private_node) {
   read("last_pose_file", "the path of a JSON file", options.last_pose_file);
   read("interactive_marker", "true or false", options.interactive_marker);
   read("image_transport", "the name of an image transport", options.image_transport);
-  read("robot", "true or false", options.robot);
   read("publish_tf", "true or false", options.publish_tf);
   read("publish_diagnostics", "true or false", options.publish_diagnostics);
   read("marker_use_mesh_resource", "true or false", options.marker_use_mesh_resource);

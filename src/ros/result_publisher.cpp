@@ -34,6 +34,8 @@ ResultPublisher::ResultPublisher(ros::NodeHandle private_node, const NodeletOpti
   camera_info_ = private_node.advertise<sensor_msgs::CameraInfo>("camera_info", 2);
   overlay_ = private_node.advertise<sensor_msgs::Image>("overlay", 2);
   marker_ = private_node.advertise<visualization_msgs::MarkerArray>("marker", 2);
+  slip_ = private_node.advertise<Slip>("slip", 5);
+  kinematic_correction_ = private_node.advertise<geometry_msgs::PoseWithCovarianceStamped>("kinematic_correction", 5);
   status_ = private_node.advertise<TrackerStatus>("status", 5, true);
   if (options.publish_debug)
     image_address_ = private_node.advertise<std_msgs::UInt64>("debug/last_image_address", 5, true);
@@ -52,6 +54,7 @@ void ResultPublisher::setObject(const BuiltTracker& object) {
 void ResultPublisher::publish(const FrameOutcome& outcome, const BuiltTracker& object) {
   if (outcome.is_new_estimate && hasPoseToTell(outcome.result))
     publishPose(outcome.header, outcome.result, object.name);
+  if (outcome.is_new_estimate && outcome.hand && isFinite(outcome.result)) publishHand(*outcome.hand, outcome.header);
   if (!outcome.processed || !object.tracker) return;
   publishParticles(outcome.header, *object.tracker);
   publishOcclusion(outcome.header, *object.tracker);
@@ -79,6 +82,13 @@ void ResultPublisher::publishPose(const std_msgs::Header& header, const TrackerR
   transform.child_frame_id = child_frame;
   transform.transform = toTransformMessage(result.T_camera_object);
   tf_broadcaster_.sendTransform(transform);
+}
+
+void ResultPublisher::publishHand(const HandReport& hand, const std_msgs::Header& header) {
+  slip_.publish(toSlipMessage(hand, header.stamp, header.frame_id));
+  if (hand.link.empty()) return;
+  kinematic_correction_.publish(toCorrectionMessage(hand, header.stamp));
+  if (publish_tf_) tf_broadcaster_.sendTransform(toCorrectionTransform(hand, header.stamp));
 }
 
 void ResultPublisher::publishParticles(const std_msgs::Header& header, const ObjectTracker& tracker) {

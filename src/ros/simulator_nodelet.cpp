@@ -32,12 +32,6 @@ void SimulatorNodelet::onInit() {
     NODELET_FATAL_STREAM(getName() << ": " << problem << ". Nothing is simulated; correct it and start again");
   }
   if (!options_.problems.empty()) return;
-  const Scenario scenario = options_.simulation.scenario;
-  if (scenario == Scenario::kRobot || scenario == Scenario::kSlip) {
-    NODELET_WARN_STREAM(
-        getName() << ": no robot model is simulated yet: the gripper's commanded motion comes on control_twist, "
-                     "joint states do not come");
-  }
   const std::string name_space = ros::names::parentNamespace(getName());
   publisher_.emplace(getNodeHandle(), getPrivateNodeHandle(), name_space, options_.simulation);
   thread_ = std::thread([this] { run(); });
@@ -50,8 +44,14 @@ void SimulatorNodelet::run() {
     SceneSimulator simulator(object.mesh, options_.simulation);
     NODELET_INFO_STREAM(getName() << ": simulates '" << object.name << "', scenario "
                                   << scenarioName(options_.simulation.scenario) << ", " << options_.rate_hz << " Hz");
+    if (simulator.robot() != nullptr) {
+      publisher_->setRobot(simulator.robot()->rootLink(), simulator.robot()->T_world_base(), RobotArm::kHandLink);
+      joints_.emplace(getNodeHandle(), ros::names::parentNamespace(getName()), *simulator.robot());
+    }
     publishImages(simulator);
+    joints_.reset();  // before the simulator goes
   } catch (const std::exception& error) {
+    joints_.reset();
     NODELET_FATAL_STREAM(getName() << ": cannot simulate: " << error.what());
   }
 }
@@ -90,6 +90,7 @@ ros::Time SimulatorNodelet::waitForTracker(SceneSimulator& simulator) {
 
 void SimulatorNodelet::publishImages(SceneSimulator& simulator) {
   const ros::Time start = waitForTracker(simulator);
+  if (joints_) joints_->begin(start);
   publisher_->publishGrasp(start);
   report_since_ = start;
   for (long tick = 0; sleepUntil(start + ros::Duration(static_cast<double>(tick) / options_.rate_hz));) {

@@ -63,10 +63,20 @@ SimulatorPublisher::SimulatorPublisher(ros::NodeHandle node, ros::NodeHandle pri
   }
 }
 
+void SimulatorPublisher::setRobot(const std::string& root_link, const Pose& T_world_base,
+                                  const std::string& hand_link) {
+  root_link_ = root_link;
+  T_world_base_ = T_world_base;
+  hand_link_ = hand_link;
+}
+
 void SimulatorPublisher::publishFrames() {
   const CameraMount mount = makeCameraMount(config_);
-  frames_.sendTransform({frame(kWorldFrame, kCameraLinkFrame, mount.T_world_link),
-                         frame(kCameraLinkFrame, kCameraOpticalFrame, mount.T_link_camera)});
+  std::vector<geometry_msgs::TransformStamped> frames{
+      frame(kWorldFrame, kCameraLinkFrame, mount.T_world_link),
+      frame(kCameraLinkFrame, kCameraOpticalFrame, mount.T_link_camera)};
+  if (!root_link_.empty()) frames.push_back(frame(kWorldFrame, root_link_.c_str(), T_world_base_));
+  frames_.sendTransform(frames);
 }
 
 void SimulatorPublisher::publishInitialPose(const Pose& T_camera_object, double error_m, double error_rad) {
@@ -85,6 +95,7 @@ void SimulatorPublisher::publishGrasp(const ros::Time& stamp) {
   grasp->header.stamp = stamp;
   grasp->header.frame_id = kCameraOpticalFrame;
   grasp->grasped = true;
+  grasp->link = hand_link_;
   grasp_.publish(grasp);
 }
 

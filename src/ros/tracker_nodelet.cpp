@@ -44,7 +44,7 @@ std::string siblingName(const std::string& nodelet_name, const std::string& topi
 TrackerNodelet::~TrackerNodelet() {
   image_subscriber_.shutdown();
   for (auto* subscriber : {&info_subscriber_, &initial_pose_subscriber_, &detected_pose_subscriber_, &grasp_subscriber_,
-                           &twist_subscriber_}) {
+                           &twist_subscriber_, &joint_subscriber_, &command_subscriber_}) {
     subscriber->shutdown();
   }
   services_.reset();
@@ -67,10 +67,6 @@ void TrackerNodelet::start() {
   ros::NodeHandle& private_node = getPrivateNodeHandle();
   const NodeletOptions options = loadNodeletOptions(private_node);
   for (const std::string& warning : options.warnings) NODELET_WARN_STREAM(getName() << ": " << warning);
-  if (options.robot) {
-    NODELET_WARN_STREAM(
-        getName() << ": ~robot: joint states are not used yet; publish the held object's twist on control_twist");
-  }
   const std::string image_topic = getNodeHandle().resolveName(siblingName(getName(), "depth/image"));
   const std::string info_topic = findInfoTopic(image_topic);
   tf_buffer_ = std::make_unique<tf2_ros::Buffer>();
@@ -83,6 +79,8 @@ void TrackerNodelet::start() {
     pose_memory_ = std::make_unique<PoseMemory>(options.last_pose_file);
     recallLastPose(built.name, session);
   }
+  const RobotOptions robot = loadRobotOptions(private_node);
+  session.setRobot(buildRobot(robot, private_node, *tf_buffer_));
   if (!options.init_file.empty()) applyInitFile(options.init_file, session);
   worker_ = std::make_unique<TrackerWorker>(getName(), std::move(session), ResultPublisher(private_node, options),
                                             options.control_wait_s);
@@ -108,6 +106,7 @@ void TrackerNodelet::start() {
   }
   if (built.tracker) offerLiveParameters(built.config);
   subscribeCommands();
+  if (robot.enabled) subscribeJoints();
   subscribe(image_topic, info_topic, options.image_transport);
 }
 
@@ -208,6 +207,19 @@ void TrackerNodelet::subscribeCommands() {
       ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
 }
 
+void TrackerNodelet::subscribeJoints() {
+  const auto subscribeTo = [this](const char* topic, void (TrackerSession::*take)(const sensor_msgs::JointState&)) {
+    return getNodeHandle().subscribe<sensor_msgs::JointState>(
+        siblingName(getName(), topic), 500,
+        [this, take](const sensor_msgs::JointStateConstPtr& joints) {
+          worker_->post([take, joints](TrackerSession& session) { (session.*take)(*joints); }, false);
+        },
+        ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+  };
+  joint_subscriber_ = subscribeTo("joint_states", &TrackerSession::addJointStates);
+  command_subscriber_ = subscribeTo("joint_commands", &TrackerSession::addCommands);
+}
+
 void TrackerNodelet::subscribe(const std::string& image_topic, const std::string& info_topic,
                                const std::string& transport) {
   matcher_.emplace([this](CameraFrame frame) { worker_->postFrame(std::move(frame)); });
@@ -263,14 +275,8 @@ void TrackerNodelet::onDetectedPose(const geometry_msgs::PoseStampedConstPtr& me
 }
 
 void TrackerNodelet::onGrasp(const GraspConstPtr& message) {
-  worker_->post([message, name = getName()](TrackerSession& session) {
+  worker_->post([message](TrackerSession& session) {
     if (!message->object_name.empty() && message->object_name != session.object().name) return;
-    if (message->grasped && !message->link.empty()) {
-      ROS_WARN_STREAM(
-          name << ": the motion of link '" << message->link
-               << "' is not available yet: the object is held by an unknown motion; leave link empty and publish "
-                  "control_twist");
-    }
     session.setGrasp(message->grasped, message->link);
   });
 }

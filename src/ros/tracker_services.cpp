@@ -189,17 +189,25 @@ bool TrackerServices::loadObject(LoadObject::Request& request, LoadObject::Respo
   return true;
 }
 
+/// A link that cannot be followed is refused and changes nothing.
 bool TrackerServices::setGrasp(SetGrasp::Request& request, SetGrasp::Response& response) {
-  if (request.grasped && !request.link.empty()) {
-    response.message = "the motion of link '" + request.link +
-                       "' is not available yet; leave link empty and publish the object's twist on control_twist";
+  const auto promise = std::make_shared<std::promise<std::string>>();
+  const bool posted = worker_.post([request, promise](TrackerSession& session) {
+    const std::string problem = request.grasped ? session.findLinkProblem(request.link) : "";
+    if (problem.empty()) session.setGrasp(request.grasped, request.link);
+    promise->set_value(problem);
+  });
+  auto future = promise->get_future();
+  if (!posted || future.wait_for(kWorkerWait) != std::future_status::ready) {
+    response.message = kStopped;
     return true;
   }
-  response.success =
-      worker_.post([request](TrackerSession& session) { session.setGrasp(request.grasped, request.link); });
-  response.message = !response.success ? kStopped
-                     : request.grasped ? "held; its motion comes from control_twist"
-                                       : "not held";
+  const std::string problem = future.get();
+  response.success = problem.empty();
+  response.message = !problem.empty()       ? problem
+                     : !request.grasped     ? "not held"
+                     : request.link.empty() ? "held; its motion comes from control_twist"
+                                            : "held by link '" + request.link + "'";
   return true;
 }
 

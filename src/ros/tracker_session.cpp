@@ -48,6 +48,7 @@ void TrackerSession::setTracker(BuiltTracker built) {
 }
 
 void TrackerSession::initialise(const InitialPose& pose, InitialisationCallback callback) {
+  correction_.reset();
   abandon("superseded by a newer initial pose");
   waiting_ = std::move(callback);
   pending_pose_ = PendingPose{pose, std::nullopt};
@@ -78,6 +79,36 @@ void TrackerSession::setLiveParameters(const TrackerConfig& changed) {
   if (!object_.tracker) return;  // the parameter server keeps them for the next object
   object_.tracker->setLiveParameters(changed);
   budget_ = FrameBudget(object_.tracker->config().budget);
+}
+
+void TrackerSession::setRobot(BuiltRobot robot) {
+  if (!robot.problem.empty()) log_.error(robot.problem);
+  if (robot.connection) {
+    log_.info("robot '" + robot.connection->model().name() + "' from '" + robot.connection->model().source() + "'");
+  }
+  for (const std::string& warning : robot.warnings) log_.warn(warning);
+  held_motion_.setRobot(std::move(robot));
+}
+
+void TrackerSession::setGrasp(bool grasped, const std::string& link) {
+  const bool is_same = grasped == held_motion_.isGrasped() && link == held_motion_.link();
+  if (!is_same) correction_.reset();
+  held_motion_.setGrasp(grasped, link);
+  if (held_motion_.graspDetector()) held_motion_.graspDetector()->setHeld(grasped);
+  const std::string problem = grasped ? findLinkProblem(link) : "";
+  if (!problem.empty()) log_.error("the object is held, but " + problem);
+}
+
+void TrackerSession::addJointStates(const sensor_msgs::JointState& message) {
+  if (!held_motion_.robot()) return;
+  const std::string problem = held_motion_.robot()->addJointStates(message);
+  if (!problem.empty()) log_.warn(problem);
+}
+
+void TrackerSession::addCommands(const sensor_msgs::JointState& message) {
+  if (!held_motion_.robot()) return;
+  const std::string problem = held_motion_.robot()->addCommands(message);
+  if (!problem.empty()) log_.warn(problem);
 }
 
 void TrackerSession::addTwist(const geometry_msgs::TwistStamped& twist) {
@@ -173,14 +204,12 @@ bool TrackerSession::restoreGivenPose(double stamp_s) {
 }
 
 std::optional<ControlInput> TrackerSession::controlFor(double stamp_s) {
-  const auto control = held_motion_.control(last_stamp_s_.value_or(stamp_s), stamp_s);
-  if (control && !control->has_twist && held_motion_.followsTwist()) {
-    log_.warn(
-        "the object is held, but control_twist says nothing about the time of the image: tracking goes on with wider "
-        "noise; "
-        "check the topic and its stamps");
+  const HeldControl held =
+      held_motion_.control(last_stamp_s_.value_or(stamp_s), stamp_s, camera_frame_, last_result_.T_camera_object);
+  if (!held.problem.empty()) {
+    log_.warn("the object is held, but how it moves is not known; tracking goes on with wider noise: " + held.problem);
   }
-  return control;
+  return held.control;
 }
 
 void TrackerSession::runTracker(FrameOutcome& outcome) {
@@ -188,7 +217,8 @@ void TrackerSession::runTracker(FrameOutcome& outcome) {
   const bool is_restored = restoreGivenPose(stamp_s);
   object_.tracker->setEffort(budget_.effort());
   const Clock::time_point begin = Clock::now();
-  outcome.result = object_.tracker->update(outcome.depth, outcome.camera, stamp_s, controlFor(stamp_s));
+  outcome.result =
+      object_.tracker->update(outcome.depth, outcome.camera, stamp_s, controlFor(stamp_s), placeOccluders(stamp_s));
   if (outcome.result.input == TrackerResult::Input::kUsed) {
     budget_.frameTook(std::chrono::duration<double>(Clock::now() - begin).count());
   }
@@ -201,7 +231,56 @@ void TrackerSession::runTracker(FrameOutcome& outcome) {
   if (outcome.result.state == TrackerState::kTracking) self_check_.forgetPose();
   explainState(initial_pose_problem_, self_check_.findings(), outcome.result);
   last_result_ = outcome.result;
+  if (outcome.processed) describeHand(outcome);
+  if (outcome.processed) detectGrasp(outcome);
   answerWaiting(outcome);
+}
+
+/// The robot's links for this image; null where it is not known where they are.
+KnownOccluders* TrackerSession::placeOccluders(double stamp_s) {
+  if (held_motion_.occluder() == nullptr) return nullptr;
+  const LinkInCamera root = held_motion_.robot()->locateRoot(camera_frame_, stamp_s);
+  if (!root.problem.empty()) return nullptr;
+  const std::size_t placed = held_motion_.occluder()->place(held_motion_.robot()->state(), root.T_camera_link, stamp_s);
+  return placed > 0 ? held_motion_.occluder() : nullptr;
+}
+
+/// What the held object says of the hand. Nothing is concluded from an object that is not seen.
+void TrackerSession::describeHand(FrameOutcome& outcome) {
+  const TrackerResult& result = outcome.result;
+  if (!result.slip || result.state != TrackerState::kTracking) return;
+  HandReport report;
+  report.link = held_motion_.followsLink() ? held_motion_.link() : "";
+  report.slip = *result.slip;
+  report.T_camera_object = result.T_camera_object;
+  report.covariance = result.covariance;
+  if (!report.link.empty()) {
+    const double stamp_s = outcome.header.stamp.toSec();
+    const LinkInCamera link = held_motion_.robot()->locate(report.link, camera_frame_, stamp_s);
+    if (!link.problem.empty()) return;  // said where the control was made
+    report.T_camera_link = link.T_camera_link;
+    report.observed = correction_.update(stamp_s, link.T_camera_link, result.T_camera_object, result.slip->slipping);
+  }
+  outcome.hand = report;
+}
+
+void TrackerSession::detectGrasp(const FrameOutcome& outcome) {
+  GraspDetector* detector = held_motion_.graspDetector();
+  if (detector == nullptr || outcome.result.state != TrackerState::kTracking) return;
+  const double stamp_s = outcome.header.stamp.toSec();
+  const std::string& link = detector->config().link;
+  const LinkInCamera hand = held_motion_.robot()->locate(link, camera_frame_, stamp_s);
+  const auto joint = held_motion_.robot()->jointPosition(detector->config().joint, stamp_s);
+  if (!hand.problem.empty() || !joint) {
+    log_.warn("grasp detection waits: " +
+              (hand.problem.empty() ? "joint '" + detector->config().joint + "' is not reported" : hand.problem));
+    return;
+  }
+  const auto held = detector->update(stamp_s, *joint, hand.T_camera_link.inverse() * outcome.result.T_camera_object);
+  if (!held) return;
+  log_.info(*held ? "link '" + link + "' holds the object" : "link '" + link + "' does not hold the object any more");
+  correction_.reset();
+  held_motion_.setGrasp(*held, *held ? link : "");
 }
 
 /// Says in the log, and where it explains the state also in the reason, what was wrong with the image.
@@ -226,7 +305,7 @@ void TrackerSession::reportInput(FrameOutcome& outcome, bool is_restored) {
       text << image << "jumped back in time, to " << header.stamp
            << " (a bag that loops, or a clock that was set): starting anew from the "
            << (is_restored ? "initial" : "last") << " pose";
-      held_motion_.forgetTwists();
+      held_motion_.forget();
       if (ros::Time::isSimTime()) tf_.clear();  // keeps static transforms
       break;
     case Input::kNoValidDepth:

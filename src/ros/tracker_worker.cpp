@@ -73,7 +73,7 @@ void TrackerWorker::handleFrame(const CameraFrame& frame) {
   statistics_.input_rate.update(counters.received, last_image_at_);
   watchStamp(frame.image->header.stamp);
   if (session_.paused()) return;
-  waitForTwist(frame);
+  waitForControl(frame);
   const FrameOutcome outcome = session_.process(frame);
   publisher_.publishImageAddress(outcome.depth.data);
   publisher_.publish(outcome, session_.object());
@@ -96,10 +96,10 @@ void TrackerWorker::watchStamp(const ros::Time& stamp) {
   stamp_problem_told_ = !problem.empty();
 }
 
-/// The twist up to the image's stamp often arrives just after the image.
-void TrackerWorker::waitForTwist(const CameraFrame& frame) {
+/// Twist and joints up to the image's stamp often arrive just after the image.
+void TrackerWorker::waitForControl(const CameraFrame& frame) {
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(control_wait_);
-  while (session_.awaitsTwist(frame.image->header.stamp) && Clock::now() < deadline) {
+  while (session_.awaitsControl(frame.image->header.stamp) && Clock::now() < deadline) {
     auto delivery = inbox_.waitForCommands(deadline - Clock::now());
     if (!delivery) return;
     carryOut(delivery->commands);

@@ -2,7 +2,7 @@
 // An arm of two links.
 #include "depth_object_tracker/simulator/arm.h"
 
-#include "depth_object_tracker/simulator/shape_meshes.h"
+#include "depth_object_tracker/geometry/shape_meshes.h"
 
 #include <algorithm>
 

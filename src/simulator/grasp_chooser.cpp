@@ -2,11 +2,11 @@
 // Random search for a grasp.
 #include "depth_object_tracker/simulator/grasp_chooser.h"
 
+#include "depth_object_tracker/geometry/shape_meshes.h"
 #include "depth_object_tracker/render/depth_renderer.h"
 #include "depth_object_tracker/simulator/pixel_index.h"
 #include "depth_object_tracker/simulator/random_source.h"
 #include "depth_object_tracker/simulator/ray_cast.h"
-#include "depth_object_tracker/simulator/shape_meshes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 // A person's hand and a robot's gripper, laid onto an object by casting rays at it.
 #include "depth_object_tracker/simulator/hand_shapes.h"
 
+#include "depth_object_tracker/geometry/shape_meshes.h"
 #include "depth_object_tracker/simulator/ray_cast.h"
-#include "depth_object_tracker/simulator/shape_meshes.h"
 
 #include <algorithm>
 #include <cmath>

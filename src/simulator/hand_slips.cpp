@@ -50,6 +50,11 @@ Pose HandSlips::offset(double t_s) {
   return T_grasped_object;
 }
 
+bool HandSlips::isSlipping(double t_s) {
+  const Slip& slip = slipAt(t_s);
+  return t_s > slip.start_s && t_s < slip.end_s;
+}
+
 double HandSlips::pusherPresence(double t_s) {
   const Slip& slip = slipAt(t_s);
   return smoothStep((t_s - slip.start_s + kComeS) / kComeS) *

@@ -2,7 +2,7 @@
 // Boards and arms that pass between the camera and the object.
 #include "depth_object_tracker/simulator/passing_occluders.h"
 
-#include "depth_object_tracker/simulator/shape_meshes.h"
+#include "depth_object_tracker/geometry/shape_meshes.h"
 
 #include <algorithm>
 #include <cmath>

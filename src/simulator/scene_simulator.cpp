@@ -9,6 +9,10 @@
 #include "depth_object_tracker/simulator/object_motion.h"
 #include "depth_object_tracker/simulator/passing_occluders.h"
 #include "depth_object_tracker/simulator/pixel_index.h"
+#ifdef DEPTH_OBJECT_TRACKER_HAVE_ROBOT
+#include "depth_object_tracker/robot/hand_motion.h"
+#include "depth_object_tracker/simulator/robot_arm.h"
+#endif
 #include "depth_object_tracker/simulator/robot_signals.h"
 
 #include <algorithm>
@@ -59,11 +63,15 @@ class SceneSimulator::Implementation {
   Implementation(const TriangleMesh& object, const SimulationConfig& config);
 
   const SimulatedFrame& render(double stamp_s);
-  Pose truth(double stamp_s) { return motion_.object(stamp_s); }
+  Pose truth(double stamp_s) { return held(stamp_s) * motion_.slipped(stamp_s); }
   Pose roughInitialPose(double error_m, double error_rad);
   const SimulationConfig& config() const { return config_; }
+  RobotArm* robotArm();
 
  private:
+  Pose held(double stamp_s);
+  void makeRobot();
+  void believe(double stamp_s);
   HandAndArm makeHolder(HandKind kind, std::uint64_t seed);
   void drawObject();
   void mergeNearest(const std::vector<CoveredPixel>& pixels);
@@ -78,6 +86,14 @@ class SceneSimulator::Implementation {
   DepthSensor sensor_;
   RobotSignals robot_;
   DepthRenderer object_renderer_;
+#ifdef DEPTH_OBJECT_TRACKER_HAVE_ROBOT
+  struct Belief {
+    double stamp_s;
+    Pose T_camera_object;  // by the robot's kinematics, of an object that has not slipped
+  };
+  std::unique_ptr<RobotArm> arm_;
+  std::optional<Belief> first_belief_, last_belief_;
+#endif
   std::optional<HandAndArm> holder_, pusher_;
   std::optional<DepthRenderer> occluder_renderer_;
   std::size_t occluder_number_ = 0;
@@ -105,7 +121,8 @@ SceneSimulator::Implementation::Implementation(const TriangleMesh& object, const
   frame_.occlusion.assign(num_pixels, 0);
   const bool robot = config.scenario == Scenario::kRobot || config.scenario == Scenario::kSlip;
   if (config.scenario == Scenario::kHuman) holder_ = makeHolder(HandKind::kHuman, config.seed);
-  if (robot) holder_ = makeHolder(HandKind::kGripper, config.seed);
+  if (robot && !config.robot_urdf.empty()) makeRobot();
+  if (robot && config.robot_urdf.empty()) holder_ = makeHolder(HandKind::kGripper, config.seed);
   if (config.scenario == Scenario::kSlip) pusher_ = makeHolder(HandKind::kHuman, config.seed + kPusherSeedOffset);
 }
 
@@ -131,13 +148,10 @@ HandAndArm SceneSimulator::Implementation::makeHolder(HandKind kind, std::uint64
 
 const SimulatedFrame& SceneSimulator::Implementation::render(double stamp_s) {
   frame_.stamp_s = stamp_s;
-  frame_.T_camera_object = motion_.object(stamp_s);
+  frame_.T_camera_object = truth(stamp_s);
+  frame_.slipping = motion_.isSlipping(stamp_s);
   frame_.T_camera_object_kinematics = frame_.T_camera_object;
-  if (config_.scenario == Scenario::kRobot || config_.scenario == Scenario::kSlip) {
-    const Pose T_camera_held = motion_.held(stamp_s);
-    frame_.control = robot_.control(stamp_s, T_camera_held, frame_.T_camera_object);
-    frame_.T_camera_object_kinematics = robot_.kinematics(T_camera_held);
-  }
+  if (config_.scenario == Scenario::kRobot || config_.scenario == Scenario::kSlip) believe(stamp_s);
   depth_m_ = background_m_;
   drawObject();
   drawHands(stamp_s);
@@ -146,6 +160,56 @@ const SimulatedFrame& SceneSimulator::Implementation::render(double stamp_s) {
   sensor_.measure(depth_m_, frame_number_++, frame_.depth_mm.data());
   return frame_;
 }
+
+#ifdef DEPTH_OBJECT_TRACKER_HAVE_ROBOT
+void SceneSimulator::Implementation::makeRobot() {
+  const bool pushed = config_.scenario == Scenario::kRobot;  // in the other one it is the object that is pushed
+  arm_ = std::make_unique<RobotArm>(
+      object_, config_, [this](double t_s) { return motion_.held(t_s); }, pushed);
+}
+
+Pose SceneSimulator::Implementation::held(double stamp_s) {
+  return arm_ ? arm_->held(stamp_s) : motion_.held(stamp_s);
+}
+
+RobotArm* SceneSimulator::Implementation::robotArm() {
+  return arm_.get();
+}
+
+/// What the robot says of the object's motion, and where it thinks that it is.
+void SceneSimulator::Implementation::believe(double stamp_s) {
+  if (!arm_) {
+    frame_.control = robot_.control(stamp_s, held(stamp_s), frame_.T_camera_object);
+    frame_.T_camera_object_kinematics = robot_.kinematics(held(stamp_s));
+    return;
+  }
+  const Belief belief{stamp_s, arm_->believed(stamp_s)};
+  if (!first_belief_) first_belief_ = last_belief_ = belief;
+  frame_.control = carryWithHand(last_belief_->T_camera_object, belief.T_camera_object, truth(last_belief_->stamp_s),
+                                 stamp_s - last_belief_->stamp_s);
+  // The grasp's offset is what it was in the first image.
+  frame_.T_camera_object_kinematics =
+      belief.T_camera_object * first_belief_->T_camera_object.inverse() * held(first_belief_->stamp_s);
+  last_belief_ = belief;
+}
+#else
+void SceneSimulator::Implementation::makeRobot() {
+  throw std::invalid_argument("robot_urdf is set, but this was built without robot kinematics");
+}
+
+Pose SceneSimulator::Implementation::held(double stamp_s) {
+  return motion_.held(stamp_s);
+}
+
+RobotArm* SceneSimulator::Implementation::robotArm() {
+  return nullptr;
+}
+
+void SceneSimulator::Implementation::believe(double stamp_s) {
+  frame_.control = robot_.control(stamp_s, held(stamp_s), frame_.T_camera_object);
+  frame_.T_camera_object_kinematics = robot_.kinematics(held(stamp_s));
+}
+#endif
 
 void SceneSimulator::Implementation::drawObject() {
   object_pixels_ = object_renderer_.render(frame_.T_camera_object, config_.camera);
@@ -162,7 +226,10 @@ void SceneSimulator::Implementation::mergeNearest(const std::vector<CoveredPixel
 
 void SceneSimulator::Implementation::drawHands(double stamp_s) {
   const auto merge = [this](const std::vector<CoveredPixel>& pixels) { mergeNearest(pixels); };
-  if (holder_) holder_->draw(motion_.held(stamp_s), config_.camera, merge);
+#ifdef DEPTH_OBJECT_TRACKER_HAVE_ROBOT
+  if (arm_) arm_->draw(stamp_s, config_.camera, merge);
+#endif
+  if (holder_) holder_->draw(held(stamp_s), config_.camera, merge);
   const double presence = pusher_ ? motion_.pusherPresence(stamp_s) : 0.0;
   if (presence <= 0.0) return;
   // The pushing hand comes from its shoulder's side and goes back there.
@@ -214,6 +281,9 @@ Pose SceneSimulator::truth(double stamp_s) {
 }
 Pose SceneSimulator::roughInitialPose(double error_m, double error_rad) {
   return implementation_->roughInitialPose(error_m, error_rad);
+}
+RobotArm* SceneSimulator::robot() {
+  return implementation_->robotArm();
 }
 const SimulationConfig& SceneSimulator::config() const {
   return implementation_->config();

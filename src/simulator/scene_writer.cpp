@@ -149,7 +149,8 @@ void SceneWriter::Implementation::add(const SimulatedFrame& frame) {
 void SceneWriter::Implementation::addKinematics(const SimulatedFrame& frame) {
   scene_control_[std::to_string(num_frames_)] = {{"grasped", frame.control->grasped},
                                                  {"linear", vectorJson(frame.control->linear_m_s, 1e-6)},
-                                                 {"angular", vectorJson(frame.control->angular_rad_s, 1e-6)}};
+                                                 {"angular", vectorJson(frame.control->angular_rad_s, 1e-6)},
+                                                 {"slipping", frame.slipping}};
   const Pose& pose = frame.T_camera_object_kinematics;
   const Eigen::Quaterniond q(pose.linear());
   char row[256];

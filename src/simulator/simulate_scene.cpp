@@ -28,6 +28,7 @@ struct Options {
   double init_error_m = 0.005;
   double init_error_deg = 4.0;
   int occlusion_every = 10;
+  std::string robot_urdf;
 };
 
 // The folder above `file` whose package.xml carries the name; "" when there is none. Works without ROS.
@@ -65,6 +66,7 @@ void addOptions(CLI::App& app, Options& options) {
       ->check(CLI::Range(0.0, 0.5))
       ->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
+  app.add_option("--robot", options.robot_urdf, "URDF of the arm that holds the object, as config/robots/arm.urdf");
   app.add_option("--init-error-m", options.init_error_m, "error of init.json [m]")->capture_default_str();
   app.add_option("--init-error-deg", options.init_error_deg, "error of init.json [degrees]")->capture_default_str();
   app.add_option("--occlusion-every", options.occlusion_every, "a true mask for every so many frames")
@@ -79,6 +81,7 @@ void run(const Options& options) {
   config.speed = dot::speedFromName(options.speed);
   config.occluders = dot::occludersFromName(options.occluders);
   config.seed = options.seed;
+  config.robot_urdf = options.robot_urdf;
   config.duration_s = options.frames / options.fps;
   const auto begin = std::chrono::steady_clock::now();
   dot::SceneSimulator simulator(object.mesh, config);

@@ -2,8 +2,8 @@
 // The room around the moved object.
 #include "depth_object_tracker/simulator/static_world.h"
 
+#include "depth_object_tracker/geometry/shape_meshes.h"
 #include "depth_object_tracker/simulator/random_source.h"
-#include "depth_object_tracker/simulator/shape_meshes.h"
 
 namespace depth_object_tracker {
 namespace {

@@ -28,6 +28,11 @@ Json times(const StageTimes& time) {
           {"resample", time.resample_s}};
 }
 
+Json slipJson(const SlipEstimate& slip) {
+  return {
+      {"relative_twist", rowMajor(slip.relative_twist)}, {"statistic", slip.statistic}, {"slipping", slip.slipping}};
+}
+
 }  // namespace
 
 TraceWriter::TraceWriter(const std::string& path) : path_(path), file_(path) {
@@ -44,6 +49,7 @@ void TraceWriter::write(int frame, const TrackerResult& result) {
   line["covariance"] = rowMajor(result.covariance);
   line["twist"] = rowMajor(result.twist);
   line["grasped"] = result.grasped;
+  if (result.slip) line["slip"] = slipJson(*result.slip);
   line["effective_sample_size"] = result.effective_sample_size;
   line["num_particles"] = result.num_particles;
   line["visible_fraction"] = result.visible_fraction;

@@ -4,6 +4,7 @@
 #include "depth_object_tracker/filter/depth_likelihood.h"
 #include "depth_object_tracker/filter/particle_filter.h"
 #include "depth_object_tracker/filter/stopwatch.h"
+#include "depth_object_tracker/model/slip_estimator.h"
 #include "depth_object_tracker/render/depth_renderer.h"
 #include "depth_object_tracker/tracker/frame_clock.h"
 #include "depth_object_tracker/tracker/live_parameters.h"
@@ -85,12 +86,13 @@ class ObjectTracker::Implementation {
         filter(config.filter, objectRadius(object.mesh, centre_object), aboutCentre(object.symmetries, centre_object)),
         resolution(config.resolution),
         status(config.status),
+        slip(config.slip),
         search(config.filter.seed),
         reacquisition(
             std::make_unique<PoseFinder>(shape, object.mesh, diameter_m, config.pixel, config.filter.seed, pool)) {}
 
   TrackerResult update(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s,
-                       const std::optional<ControlInput>& control);
+                       const std::optional<ControlInput>& control, KnownOccluders* occluders);
 
   Pose toObject(const Pose& T_camera_centre) const {
     Pose T_camera_object = T_camera_centre;
@@ -109,6 +111,7 @@ class ObjectTracker::Implementation {
   ParticleFilter filter;
   ResolutionChooser resolution;
   StatusMonitor status;
+  SlipEstimator slip;
   PoseSearch search;
   Reacquisition reacquisition;
   Pose last_seen_centre = Pose::Identity();
@@ -118,6 +121,9 @@ class ObjectTracker::Implementation {
   bool is_blind = false;     // nothing of the object was seen in the last image, or not where it was thought to be
   double reacquired_s = kLongAgoS;  // since the object was found again
   bool fit_is_poor = false;         // look around in the next frame
+  std::optional<ProcessStep> step_in_use;  // of the last image that was looked at
+  bool follows_hand = false;
+  Vector6d hand_velocity = Vector6d::Zero();  // of the centre as the robot has it; zero when it is not followed
   FrameClock clock;
   std::optional<Vector6d> initial_variances;  // set by initialise, used by the next image
   double full_resolution_pixels = 0.0;        // that the object covers
@@ -146,13 +152,17 @@ class ObjectTracker::Implementation {
   bool isDoubtful() const;
   bool moveToBetterPose(const DepthImageView& depth, const Pose& T_camera_centre);
   void startAt(const Pose& T_camera_centre);
+  /// Particles' velocities are relative to the hand while it is followed: hand over at grasp and release.
+  void followHand(const ProcessStep& step, bool follows, double dt_s);
+  void estimateSlip(const FilterEstimate& estimate, double dt_s);
   void rememberFit(const FilterEstimate& estimate, double dt_s);
   void writeEstimate(const FilterEstimate& estimate);
   void writeStatus(const PoseAssessment& assessment);
 };
 
 TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth, const PinholeCamera& camera,
-                                                    double stamp_s, const std::optional<ControlInput>& control) {
+                                                    double stamp_s, const std::optional<ControlInput>& control,
+                                                    KnownOccluders* occluders) {
   Stopwatch stopwatch;
   if (!checkInput(depth, camera, stamp_s)) return result;
   if (status.state() == TrackerState::kUninitialized) return result;
@@ -162,6 +172,9 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
   if (full_resolution_pixels <= 0.0) full_resolution_pixels = projectedPixels(camera);
   const SamplingGrid grid = makeSamplingGrid(camera, resolution.choose(full_resolution_pixels, std::sqrt(effort)));
   likelihood.setImage(depth, grid, time.dt_s);
+  if (occluders != nullptr && config.pixel.known_occluder_p_occluded > 0.0) {
+    likelihood.setOccluders(occluders->render(grid.camera));
+  }
 
   if (is_blind && reacquire(depth, time.dt_s)) is_blind = false;
   FilterEstimate estimate = is_blind ? hold(time.dt_s, control) : look(time.dt_s, control);
@@ -183,6 +196,7 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
   result.downsampling = grid.factor;
   writeEstimate(estimate);
   writeStatus(assessment);
+  estimateSlip(estimate, time.dt_s);
   rememberFit(estimate, time.dt_s);
   result.time.total_s = stopwatch.lap();
   return result;
@@ -191,13 +205,15 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
 FilterEstimate ObjectTracker::Implementation::look(double dt_s, const std::optional<ControlInput>& control) {
   std::vector<Pose> hypotheses;
   const ProcessStep step = makeStep(dt_s, control, hypotheses);
+  step_in_use = step;
   const double exponent = likelihoodExponent(config.filter, likelihood.image().grid().factor);
   return filter.update(likelihood, step, exponent, hypotheses);
 }
 
 FilterEstimate ObjectTracker::Implementation::hold(double dt_s, const std::optional<ControlInput>& control) {
-  ProcessStep step(config.process, dt_s, control, centre_object, diffusionScale());
+  ProcessStep step(config.process, dt_s, control, centre_object, diffusionScale(), slip.noiseScale());
   step.excludeSuddenMotion();
+  followHand(step, control && control->isFollowed(), dt_s);
   return filter.hold(likelihood, step);
 }
 
@@ -268,7 +284,8 @@ ProcessStep ObjectTracker::Implementation::makeStep(double dt_s, const std::opti
     initial_variances.reset();
     return step;
   }
-  ProcessStep step(config.process, dt_s, control, centre_object, diffusionScale());
+  ProcessStep step(config.process, dt_s, control, centre_object, diffusionScale(), slip.noiseScale());
+  followHand(step, control && control->isFollowed(), dt_s);
   if (mayReacquire() && fit_is_poor) {
     hypotheses = search.around(last_mean.mean, searchVariances(kPoorFitReachS), kHypotheses);
   }
@@ -310,6 +327,33 @@ void ObjectTracker::Implementation::startAt(const Pose& T_camera_centre) {
   reacquisition.restart();
 }
 
+void ObjectTracker::Implementation::followHand(const ProcessStep& step, bool follows, double dt_s) {
+  const Vector6d before = hand_velocity;
+  hand_velocity.setZero();
+  if (follows && dt_s > 0.0) hand_velocity = step.controlDisplacement(last_mean.mean) / dt_s;
+  if (follows != follows_hand) {
+    filter.shiftVelocities(before - hand_velocity);
+    slip.reset();
+  }
+  follows_hand = follows;
+}
+
+void ObjectTracker::Implementation::estimateSlip(const FilterEstimate& estimate, double dt_s) {
+  result.slip.reset();
+  if (!follows_hand || dt_s <= 0.0 || is_blind || !step_in_use) return;
+  HandStep in_hand;
+  const Pose carried = perturb(last_mean.mean, step_in_use->controlDisplacement(last_mean.mean));
+  in_hand.residual = difference(estimate.pose.mean, carried);
+  in_hand.pose_variances = estimate.pose.covariance.diagonal();
+  in_hand.hand_velocity = hand_velocity;
+  in_hand.R_camera_object = estimate.pose.mean.linear();
+  in_hand.dt_s = dt_s;
+  result.slip = slip.update(in_hand);
+  const Eigen::Vector3d origin_from_centre = -(in_hand.R_camera_object * centre_object);
+  result.slip->relative_twist.head<3>() += result.slip->relative_twist.tail<3>().cross(origin_from_centre);
+  result.slip->covariance = transportCovariance(result.slip->covariance, origin_from_centre);
+}
+
 void ObjectTracker::Implementation::rememberFit(const FilterEstimate& estimate, double dt_s) {
   const bool seen = status.state() == TrackerState::kTracking && !status.misfit() &&
                     status.visibleFraction() >= kSeenAboveVisibleFraction;
@@ -342,8 +386,8 @@ void ObjectTracker::Implementation::writeEstimate(const FilterEstimate& estimate
   result.has_pose = !is_anywhere;
   result.T_camera_object = toObject(estimate.pose.mean);
   result.covariance = transportCovariance(covariance, origin_from_centre);
-  result.twist = estimate.velocity;
-  result.twist.head<3>() += estimate.velocity.tail<3>().cross(origin_from_centre);
+  result.twist = estimate.velocity + hand_velocity;
+  result.twist.head<3>() += result.twist.tail<3>().cross(origin_from_centre);
   result.twist_covariance = transportCovariance(estimate.velocity_covariance, origin_from_centre);
   result.effective_sample_size = estimate.effective_sample_size;
   result.num_particles = static_cast<int>(filter.poses().size());
@@ -384,6 +428,9 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
   self.is_blind = self.is_anywhere = false;
   self.reacquired_s = kLongAgoS;
   self.reacquisition.restart();
+  self.follows_hand = false;
+  self.slip.reset();
+  self.hand_velocity.setZero();
   self.likelihood.resetOcclusion();
   self.clock.reset();
   self.status.restart();
@@ -427,8 +474,8 @@ void ObjectTracker::setLiveParameters(const TrackerConfig& changed) {
 }
 
 TrackerResult ObjectTracker::update(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s,
-                                    const std::optional<ControlInput>& control) {
-  return implementation_->update(depth, camera, stamp_s, control);
+                                    const std::optional<ControlInput>& control, KnownOccluders* occluders) {
+  return implementation_->update(depth, camera, stamp_s, control, occluders);
 }
 
 ParticlePoses ObjectTracker::particles() const {

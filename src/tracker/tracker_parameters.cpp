@@ -32,6 +32,8 @@ Bindings measurementBindings() {
     bindNumber(FIELD(pixel, edge_stddev_px), 0.0, 10.0, "how well the camera sees where an outline is, full-resolution pixels; 0 = to the pixel (the paper)"),
     bindNumber(FIELD(pixel, tail_weight), 1e-6, 0.5, "share of readings that may be anything between 0 and max_depth_m"),
     bindNumber(FIELD(pixel, max_depth_m), 0.1, 100.0, "readings beyond are treated as missing"),
+    bindNumber(FIELD(pixel, known_occluder_p_occluded), 0.0, 0.99, "least probability of occlusion behind a known occluder (a link of the robot); 0 = they are ignored"),
+    bindNumber(FIELD(pixel, known_occluder_margin_m), 0.0, 1.0, "how well the place of a known occluder is known: what is less far behind it is not behind it"),
     bindNumber(FIELD(pixel, min_p_occluded_in_front), 0.0, 0.99, "least probability of occlusion for readings far in front of the object; 0 = unused (the paper)"),
     bindNumber(FIELD(pixel, occluder_half_life_m), 0.01, 100.0, "distance over which the density of occluders halves"),
     bindNumber(FIELD(occlusion, p_visible_given_visible), 0.001, 0.999, "probability that a visible pixel is visible one second later; more than p_visible_given_occluded"),
@@ -51,9 +53,23 @@ Bindings processBindings() {
     bindNumber(FIELD(process, grasped_rotation_noise_rad_per_sqrt_s), 1e-5, 30.0, "random rotation of an object that a robot holds"),
     bindNumber(FIELD(process, grasped_position_bias_m_per_s), 0.0, 1.0, "constant error of the robot's linear velocity, standard deviation"),
     bindNumber(FIELD(process, grasped_rotation_bias_rad_per_s), 0.0, 10.0, "constant error of the robot's angular velocity, standard deviation"),
+    bindNumber(FIELD(process, grasped_velocity_half_life_s), 0.0, 10.0, "time over which a motion in the robot's hand (slip) halves; 0 = no such motion (the paper)"),
     bindNumber(FIELD(process, diffusion_full_above_visible_fraction), 0.0, 1.0, "when less of the object is seen, random motion is held back; 0 = never (the paper)"),
     bindNumber(FIELD(process, hidden_diffusion_scale), 0.001, 1.0, "share of the random motion that is left when nothing is seen"),
     bindNumber(FIELD(process, max_gap_s), 0.01, 60.0, "longer gaps between images count as this long, with zero velocity"),
+  };
+}
+
+Bindings slipBindings() {
+  return {
+    bindNumber(FIELD(slip, slip_position_stddev_m_per_s), 1e-4, 10.0, "how fast objects slip in a robot's hand, standard deviation, each axis"),
+    bindNumber(FIELD(slip, slip_rotation_stddev_rad_per_s), 1e-3, 100.0, "how fast objects turn in a robot's hand, standard deviation, each axis"),
+    bindNumber(FIELD(slip, slip_time_constant_s), 0.01, 10.0, "how long a slip goes on at about the same velocity"),
+    bindNumber(FIELD(slip, kinematics_position_error_m_per_s), 0.0, 1.0, "error of the robot's linear velocity that is no slip, standard deviation"),
+    bindNumber(FIELD(slip, kinematics_rotation_error_rad_per_s), 0.0, 10.0, "error of the robot's angular velocity that is no slip, standard deviation"),
+    bindNumber(FIELD(slip, kinematics_relative_error), 0.0, 1.0, "share of the hand's velocity that may be wrong on top of that"),
+    bindNumber(FIELD(slip, slip_threshold), 0.0, 1e6, "an object slips when its motion in the hand is longer than this (squared Mahalanobis length)"),
+    bindNumber(FIELD(slip, slip_noise_scale_max), 1.0, 100.0, "the noise in the hand is widened in a slip, at most so much; 1 = never (the paper)"),
   };
 }
 
@@ -90,7 +106,8 @@ Bindings operationBindings() {
 const Bindings& bindings() {
   static const Bindings all = [] {
     Bindings list;
-    for (Bindings (*group)() : {measurementBindings, processBindings, filterBindings, operationBindings}) {
+    for (Bindings (*group)() :
+         {measurementBindings, processBindings, slipBindings, filterBindings, operationBindings}) {
       for (ParameterBinding& binding : group()) list.push_back(std::move(binding));
     }
     return list;

@@ -342,6 +342,16 @@ class RandomFrame {
     believe(tile.touched.size());
   }
 
+  /// Something known stands before or behind the object in some pixels.
+  void addOccluders() {
+    const SamplingGrid& grid = image_.grid();
+    std::vector<float> depth(static_cast<std::size_t>(grid.camera.width * grid.camera.height), 0.0f);
+    for (float& value : depth) {
+      if (uniform(0.0, 1.0) < 0.5) value = static_cast<float>(uniform(0.2, 2.0));
+    }
+    image_.setOccluders(depth);
+  }
+
   TileLikelihoodInput input() const { return {image_.planes(), image_.model(), kBelief}; }
 
   /// Some tiles were never measured.
@@ -451,7 +461,8 @@ TEST_P(EngineLikelihood, EveryInstructionSetGivesTheSameNumbers) {
     DepthTile tile = drawScalar(object_.faces, pose, camera);
     if (countCovered(tile) == 0) return;
     softenOutlineScalar(outline, true, tile);
-    const RandomFrame frame(tile, camera, config, engine_);
+    RandomFrame frame(tile, camera, config, engine_);
+    if (index % 4 == 1) frame.addOccluders();
     const TileGeometry geometry =
         makeTileGeometry(pose.linear(), pose.translation(), camera, object_.faces, outline, tile);
     expectSameLikelihood(tile, frame, extraStddev(index));

@@ -31,6 +31,8 @@ class RowImage {
     image_.prepare(image_.imageBox());
   }
 
+  void setOccluders(const std::vector<float>& depth_m) { image_.setOccluders(depth_m); }
+
   MeasuredPixel pixel(int col) const { return image_.pixel(0, col); }
   PixelRatios ratios(int col, float rendered_depth_m) const {
     return pixelRatios(image_.model(), pixel(col), rendered_depth_m);
@@ -109,6 +111,25 @@ TEST(MeasuredImage, ReadingsFarInFrontCountAsOccludedAtLeastHalf) {
   }
   config.min_p_occluded_in_front = 0.0;
   EXPECT_EQ(RowImage({1.0f}, config).believedOcclusion(0.1f, 0, 2.0f), 0.1f) << "0 turns it off";
+}
+
+TEST(MeasuredImage, WhatIsBehindAKnownOccluderCountsAsOccludedRatherThanNot) {
+  PixelModelConfig config;
+  config.known_occluder_p_occluded = 0.7;
+  config.known_occluder_margin_m = 0.03;
+  RowImage row({0.0f, 1.0f, 1.0f}, config);
+  row.setOccluders({0.9f, 0.9f, 0.0f});
+  EXPECT_EQ(row.believedOcclusion(0.1f, 1, 1.0f), 0.7f);
+  EXPECT_EQ(row.believedOcclusion(0.9f, 1, 1.0f), 0.9f) << "who knows better is not contradicted";
+  EXPECT_EQ(row.believedOcclusion(0.1f, 1, 0.92f), 0.1f) << "too near to it to say";
+  EXPECT_EQ(row.believedOcclusion(0.1f, 1, 0.85f), 0.1f) << "before it";
+  EXPECT_EQ(row.believedOcclusion(0.1f, 2, 1.0f), 0.1f) << "there is none in this pixel";
+  row.setOccluders({0.9f});
+  EXPECT_EQ(row.believedOcclusion(0.1f, 1, 1.0f), 0.1f) << "of another size than the grid";
+  config.known_occluder_p_occluded = 0.0;
+  RowImage off({0.0f, 1.0f, 1.0f}, config);
+  off.setOccluders({0.9f, 0.9f, 0.0f});
+  EXPECT_EQ(off.believedOcclusion(0.1f, 1, 1.0f), 0.1f);
 }
 
 TEST(MeasuredImage, TheFloorOfTheBeliefRisesOverItsRamp) {

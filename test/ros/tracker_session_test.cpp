@@ -178,14 +178,14 @@ TEST_F(TrackerSessionTest, FollowsAHeldObjectByItsControlTwist) {
     twist.header.stamp = ros::Time(stamp_s_ + kFrameS);
     twist.twist.linear.x = 0.02 / kFrameS;
     session_.addTwist(twist);
-    EXPECT_FALSE(session_.awaitsTwist(twist.header.stamp));
+    EXPECT_FALSE(session_.awaitsControl(twist.header.stamp));
     outcome = step(pose);
   }
   EXPECT_TRUE(outcome.result.grasped);
   EXPECT_EQ(outcome.result.state, TrackerState::kTracking) << outcome.result.reason;
   EXPECT_LT(errorM(outcome, pose), 0.005);
-  EXPECT_TRUE(session_.awaitsTwist(ros::Time(stamp_s_ + kFrameS)));
-  EXPECT_FALSE(session_.awaitsTwist(ros::Time(stamp_s_ + 1.0)));  // the stream has ended
+  EXPECT_TRUE(session_.awaitsControl(ros::Time(stamp_s_ + kFrameS)));
+  EXPECT_FALSE(session_.awaitsControl(ros::Time(stamp_s_ + 1.0)));  // the stream has ended
 }
 
 TEST_F(TrackerSessionTest, ABagThatLoopsFindsItsInitialPoseAgain) {

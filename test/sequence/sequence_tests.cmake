@@ -7,7 +7,14 @@ add_tracker_test(tracker_sequence_tests
     sequence/live_parameters_test.cpp
     sequence/motion_test.cpp
     sequence/scripted_scene.cpp
+    sequence/slip_test.cpp
   LIBRARIES depth_object_tracker_simulator depth_object_tracker_tools)
+
+if(TARGET depth_object_tracker_robot)
+  add_tracker_test(robot_occluder_test
+    SOURCES sequence/robot_occluder_test.cpp
+    LIBRARIES depth_object_tracker_simulator depth_object_tracker_robot)
+endif()
 
 add_tracker_test(recorded_scenes_tests SOURCES sequence/recorded_scenes_test.cpp LIBRARIES depth_object_tracker_tools)
 target_compile_definitions(recorded_scenes_tests PRIVATE SHARED_DATA_FOLDER="${SHARED_DATA_FOLDER}")

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hands and grippers touch what they hold; rays and shapes they are made with.
 #include "depth_object_tracker/simulator/hand_shapes.h"
+#include "depth_object_tracker/geometry/shape_meshes.h"
 #include "depth_object_tracker/simulator/ray_cast.h"
-#include "depth_object_tracker/simulator/shape_meshes.h"
 
 #include <gtest/gtest.h>
 

@@ -7,6 +7,12 @@ add_tracker_test(simulator_test
     ${CMAKE_CURRENT_LIST_DIR}/scene_simulator_test.cpp ${CMAKE_CURRENT_LIST_DIR}/scene_writer_test.cpp
   LIBRARIES depth_object_tracker_simulator depth_object_tracker_tools)
 
+if(TARGET depth_object_tracker_robot)
+  add_tracker_test(robot_arm_test
+    SOURCES ${CMAKE_CURRENT_LIST_DIR}/robot_arm_test.cpp
+    LIBRARIES depth_object_tracker_simulator)
+endif()
+
 if(NOT TARGET depth_object_tracker_ros_simulator)
   return()
 endif()

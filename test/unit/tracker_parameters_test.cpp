@@ -29,10 +29,10 @@ std::map<std::string, ParameterValue> allValues(const TrackerConfig& config) {
 }
 
 TEST(TrackerParameters, EveryFieldIsInTheTable) {
-  const std::size_t num_fields = countFields<PixelModelConfig>() + countFields<OcclusionChainConfig>() +
-                                 countFields<ProcessConfig>() + countFields<FilterConfig>() +
-                                 countFields<ResolutionConfig>() + countFields<InitialisationConfig>() +
-                                 countFields<StatusConfig>() + countFields<BudgetConfig>();
+  const std::size_t num_fields =
+      countFields<PixelModelConfig>() + countFields<OcclusionChainConfig>() + countFields<ProcessConfig>() +
+      countFields<SlipConfig>() + countFields<FilterConfig>() + countFields<ResolutionConfig>() +
+      countFields<InitialisationConfig>() + countFields<StatusConfig>() + countFields<BudgetConfig>();
   EXPECT_EQ(listTrackerParameters().size(), num_fields)
       << "a field of a config struct has no line in src/tracker/tracker_parameters.cpp";
 }

@@ -61,6 +61,9 @@ class ParticleFilter {
   /// Velocities become zero (after a time jump or a gap).
   void stopMotion();
 
+  /// Adds to all velocities [m/s, rad/s]: what they are relative to has changed.
+  void shiftVelocities(const Vector6d& shift);
+
  private:
   void summarise(FilterEstimate& estimate, const ProcessStep& step);
   void resampleIfNeeded(PoseLikelihood& likelihood);

@@ -9,18 +9,23 @@
 #include "depth_object_tracker/render/depth_tile.h"
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace depth_object_tracker {
 
+/// Farther away than anything.
+constexpr float kNoOccluder = std::numeric_limits<float>::max();
+
 /// Constants of one measured pixel; densities as ratios to missDensity (see pixel_likelihood.h).
 struct MeasuredPixel {
-  float depth = 0.0f;           ///< [m]; 0 = no reading
-  float inverse_stddev = 0.0f;  ///< 1 / surfaceNoiseStddev [1/m]
-  float visible_peak = 0.0f;    ///< Gaussian part of the visible ratio at d = z
-  float tail = 0.0f;            ///< uniform part of every ratio; an occluder far in front makes up the rest to 1
-  float occluded_shift = 0.0f;  ///< shift of the occluder's step, in standard deviations
-  float occluded_floor = 0.0f;  ///< paper's second Phi (readings near the lens); 0 for the consistent model
+  float depth = 0.0f;                  ///< [m]; 0 = no reading
+  float inverse_stddev = 0.0f;         ///< 1 / surfaceNoiseStddev [1/m]
+  float visible_peak = 0.0f;           ///< Gaussian part of the visible ratio at d = z
+  float tail = 0.0f;                   ///< uniform part of every ratio; an occluder far in front makes up the rest to 1
+  float occluded_shift = 0.0f;         ///< shift of the occluder's step, in standard deviations
+  float occluded_floor = 0.0f;         ///< paper's second Phi (readings near the lens); 0 for the consistent model
+  float occluder_limit = kNoOccluder;  ///< [m] an object farther away than this is behind a known occluder
 };
 
 /// Ratios of a measured pixel's densities to "no object".
@@ -40,6 +45,7 @@ struct PixelPlanes {
   const float* occluded_shift;
   const float* occluded_floor;
   int stride;
+  const float* occluder_limit = nullptr;  ///< null where there are no known occluders
 };
 
 /// What all pixels share.
@@ -47,6 +53,7 @@ struct PixelModel {
   float min_p_occluded_in_front;
   float occluder_rate;  ///< [1/m]
   bool paper_occluder;
+  float known_occluder_p_occluded = 0.0f;
 };
 
 /// Ramp, in standard deviations in front of the object, over which min_p_occluded_in_front takes hold.
@@ -60,6 +67,10 @@ class MeasuredImage {
 
   /// A new frame; the view must stay valid until the next call.
   void setImage(const DepthImageView& view, const SamplingGrid& grid);
+
+  /// Known occluders for this frame, after setImage().
+  /// @param depth_m of the nearest one for each cell of the grid, row-major; 0 = none. Another size is ignored.
+  void setOccluders(const std::vector<float>& depth_m);
 
   /// Makes pixels in `box`, grown to whole tiles, available; grows the region only. Not thread-safe.
   void prepare(const CellBox& box);
@@ -92,7 +103,8 @@ class MeasuredImage {
   SamplingGrid grid_;
   CellBox prepared_;
   std::size_t stride_ = 0;
-  AlignedVector<float> depth_, inverse_stddev_, visible_peak_, tail_, occluded_shift_, occluded_floor_;
+  AlignedVector<float> depth_, inverse_stddev_, visible_peak_, tail_, occluded_shift_, occluded_floor_, occluder_limit_;
+  bool has_occluders_ = false;
 };
 
 /// Ratios of a pixel with a reading.
@@ -100,7 +112,8 @@ PixelRatios pixelRatios(const PixelModel& model, const MeasuredPixel& pixel, flo
 
 /// Belief p(occluded) to use for a reading. The object may move behind something, or something before the object;
 /// pixels are not independent in that, and if each paid for it on its own the estimate would rather flee. So a
-/// reading far in front of the object counts as occluded with config.min_p_occluded_in_front at least.
+/// reading far in front of the object counts as occluded with config.min_p_occluded_in_front at least, and whatever is
+/// behind a known occluder with config.known_occluder_p_occluded.
 float believedOcclusion(const PixelModel& model, float p_occluded, const MeasuredPixel& pixel, float rendered_depth_m);
 
 }  // namespace depth_object_tracker

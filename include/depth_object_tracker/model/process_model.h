@@ -28,8 +28,9 @@ class ProcessStep {
 
   /// @param dt_s >= 0; clamped to config.max_gap_s, and velocities do not survive a longer gap.
   /// @param diffusion_scale in (0, 1]: scales the standard deviations while little of the object is seen.
+  /// @param slip_scale >= 1: scales those of an object in a robot's hand while it seems to move there.
   ProcessStep(const ProcessConfig& config, double dt_s, const std::optional<ControlInput>& control,
-              const Eigen::Vector3d& centre_object, double diffusion_scale);
+              const Eigen::Vector3d& centre_object, double diffusion_scale, double slip_scale = 1.0);
 
   /// The step into a first frame: no motion, but the uncertainty of an initial pose.
   /// @param variances [m^2, rad^2] of the centre's pose.
@@ -39,8 +40,11 @@ class ProcessStep {
   void excludeSuddenMotion();
 
   /// Expected pose at the end of the interval.
-  /// @param velocity of the centre, [m/s, rad/s], camera axes; used when the object is not held.
+  /// @param velocity of the centre, [m/s, rad/s], camera axes; relative to the hand where the control is followed.
   Pose predict(const Pose& T_camera_centre, const Vector6d& velocity) const;
+
+  /// What the control moves the centre by; zero when none is followed.
+  Vector6d controlDisplacement(const Pose& T_camera_centre) const;
 
   /// Velocity left at the end of the interval when nothing is measured.
   Vector6d dampedVelocity(const Vector6d& velocity) const;
@@ -58,6 +62,7 @@ class ProcessStep {
   void setNoise(const ProcessConfig& config, Vector6d variances);
 
   double dt_s_ = 0.0;
+  double control_dt_s_ = 0.0;  // not clamped: the robot's motion is known however long the gap
   std::optional<ControlInput> control_;
   Eigen::Vector3d centre_object_ = Eigen::Vector3d::Zero();
   double velocity_displacement_s_ = 0.0;  ///< integral of the damping over the interval

@@ -37,7 +37,6 @@ struct NodeletOptions {
   std::string last_pose_file;      ///< the last good pose is kept there and taken up again; empty = not
   bool interactive_marker = true;  ///< the mesh in rviz, to be dragged to the object
   std::string image_transport = "raw";
-  bool robot = false;  ///< joint states move the object while it is held (not available yet)
   bool publish_tf = true;
   bool publish_diagnostics = true;
   bool marker_use_mesh_resource = false;  ///< rviz loads the mesh file itself, instead of a triangle list

@@ -33,6 +33,7 @@ class ResultPublisher {
  private:
   bool isWanted(const ros::Publisher& publisher);
   void publishPose(const std_msgs::Header& header, const TrackerResult& result, const std::string& child_frame);
+  void publishHand(const HandReport& hand, const std_msgs::Header& header);
   void publishParticles(const std_msgs::Header& header, const ObjectTracker& tracker);
   void publishOcclusion(const std_msgs::Header& header, const ObjectTracker& tracker);
   void publishOverlay(const FrameOutcome& outcome, const ObjectTracker& tracker);
@@ -42,7 +43,7 @@ class ResultPublisher {
   MarkerBuilder marker_builder_;
   tf2_ros::TransformBroadcaster tf_broadcaster_;
   ros::Publisher pose_, twist_, particles_, particle_poses_, particle_points_, occlusion_, camera_info_, overlay_,
-      marker_, status_, image_address_;
+      marker_, slip_, kinematic_correction_, status_, image_address_;
 };
 
 }  // namespace depth_object_tracker

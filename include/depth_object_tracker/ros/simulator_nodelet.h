@@ -2,6 +2,7 @@
 // A simulated depth camera as a nodelet: stands in for a camera driver.
 #pragma once
 
+#include "depth_object_tracker/ros/simulator_joints.h"
 #include "depth_object_tracker/ros/simulator_options.h"
 #include "depth_object_tracker/ros/simulator_publisher.h"
 
@@ -31,7 +32,8 @@ class SimulatorNodelet : public nodelet::Nodelet {
 
   SimulatorOptions options_;
   std::optional<SimulatorPublisher> publisher_;
-  std::mutex mutex_;  // guards stop_
+  std::optional<SimulatorJoints> joints_;  // the thread's
+  std::mutex mutex_;                       // guards stop_
   std::condition_variable stopped_;
   bool stop_ = false;
   ros::Time report_since_;

@@ -27,6 +27,9 @@ class SimulatorPublisher {
   SimulatorPublisher(ros::NodeHandle node, ros::NodeHandle private_node, const std::string& name_space,
                      const SimulationConfig& config);
 
+  /// The object is held by this link of a robot whose root stands at T_world_base.
+  void setRobot(const std::string& root_link, const Pose& T_world_base, const std::string& hand_link);
+
   void publishFrames();
   /// Latched; stamp 0 = good for any time.
   void publishInitialPose(const Pose& T_camera_object, double error_m, double error_rad);
@@ -41,6 +44,8 @@ class SimulatorPublisher {
   void publishControl(const ControlInput& control, const std_msgs::Header& header);
 
   SimulationConfig config_;
+  std::string root_link_, hand_link_;  // empty = no robot
+  Pose T_world_base_ = Pose::Identity();
   image_transport::CameraPublisher camera_;
   sensor_msgs::CameraInfo camera_info_;
   ros::Publisher truth_, occlusion_, initial_pose_, control_twist_, grasp_;

@@ -33,6 +33,7 @@ class TrackerNodelet : public nodelet::Nodelet {
   void applyInitFile(const std::string& init_file, TrackerSession& session);
   void subscribe(const std::string& image_topic, const std::string& info_topic, const std::string& transport);
   void subscribeCommands();
+  void subscribeJoints();
   std::string findInfoTopic(const std::string& image_topic);
   void offerLiveParameters(const TrackerConfig& config);
   void observe(const DiagnosticSnapshot& snapshot, const TrackerSession& session);
@@ -58,7 +59,7 @@ class TrackerNodelet : public nodelet::Nodelet {
   bool frame_note_told_ = false, topics_told_ = false;
   image_transport::Subscriber image_subscriber_;
   ros::Subscriber info_subscriber_, initial_pose_subscriber_, detected_pose_subscriber_, grasp_subscriber_,
-      twist_subscriber_;
+      twist_subscriber_, joint_subscriber_, command_subscriber_;
 };
 
 }  // namespace depth_object_tracker

@@ -4,6 +4,7 @@
 
 #include "depth_object_tracker/ros/camera_conversions.h"
 #include "depth_object_tracker/ros/frame_inbox.h"
+#include "depth_object_tracker/ros/hand_messages.h"
 #include "depth_object_tracker/ros/held_motion.h"
 #include "depth_object_tracker/ros/initial_pose_resolver.h"
 #include "depth_object_tracker/ros/object_source.h"
@@ -32,6 +33,7 @@ struct FrameOutcome {
   TrackerResult result;          ///< state and reason as they go into the status
   DepthImageView depth;          ///< valid as long as the image; empty when not processed
   PinholeCamera camera;
+  std::optional<HandReport> hand;  ///< while the object is held and follows the hand
 };
 
 /// How an initialisation that somebody waits for ended.
@@ -65,11 +67,21 @@ class TrackerSession {
   void reset();
   void setLiveParameters(const TrackerConfig& changed);
   void setPaused(bool paused) { paused_ = paused; }
-  void setGrasp(bool grasped, const std::string& link) { held_motion_.setGrasp(grasped, link); }
-  void addTwist(const geometry_msgs::TwistStamped& twist);
 
-  /// True when the image's control twist is not here yet but may well come.
-  bool awaitsTwist(const ros::Time& stamp) const { return !paused_ && held_motion_.awaitsTwist(stamp.toSec()); }
+  /// Says what is wrong with the robot, if anything; without one, grasps by links are held by an unknown motion.
+  void setRobot(BuiltRobot robot);
+
+  /// @return empty, or why the link's motion cannot be known.
+  std::string findLinkProblem(const std::string& link) const { return held_motion_.findLinkProblem(link); }
+  void setGrasp(bool grasped, const std::string& link);
+  void addTwist(const geometry_msgs::TwistStamped& twist);
+  void addJointStates(const sensor_msgs::JointState& message);
+  void addCommands(const sensor_msgs::JointState& message);
+
+  /// True when the image's control (twist, joints, tf) is not here yet but may well come.
+  bool awaitsControl(const ros::Time& stamp) const {
+    return !paused_ && held_motion_.awaitsControl(stamp.toSec(), camera_frame_);
+  }
 
   FrameOutcome process(const CameraFrame& frame);
 
@@ -112,6 +124,9 @@ class TrackerSession {
   bool restoreGivenPose(double stamp_s);
   std::optional<ControlInput> controlFor(double stamp_s);
   void runTracker(FrameOutcome& outcome);
+  void detectGrasp(const FrameOutcome& outcome);
+  void describeHand(FrameOutcome& outcome);
+  KnownOccluders* placeOccluders(double stamp_s);
   void reportInput(FrameOutcome& outcome, bool is_restored);
   void answerWaiting(const FrameOutcome& outcome);
   TrackerResult refusedResult(const std::string& reason) const;
@@ -132,6 +147,7 @@ class TrackerSession {
   bool paused_ = false;
   bool distortion_reported_ = false;
   HeldMotion held_motion_;
+  KinematicCorrection correction_;
   TrackerResult last_result_;
   std::optional<double> last_stamp_s_;  // of the last image that the tracker saw
   std::string camera_frame_;

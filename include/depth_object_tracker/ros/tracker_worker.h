@@ -46,7 +46,7 @@ class TrackerWorker {
   void run();
   void carryOut(std::deque<FrameInbox::Command>& commands);
   void handleFrame(const CameraFrame& frame);
-  void waitForTwist(const CameraFrame& frame);
+  void waitForControl(const CameraFrame& frame);
   void reportIdle();
   void watchStamp(const ros::Time& stamp);
   void tellObserver(const TrackerStatus& status) const;

@@ -18,6 +18,9 @@ class HandSlips {
   /// Pose of the object in its own frame at the first grasp, T_grasped_object; identity until the first push.
   Pose offset(double t_s);
 
+  /// True while a push moves the object.
+  bool isSlipping(double t_s);
+
   /// How near the pushing hand is: 0 = away, 1 = touching (before, during and shortly after every push).
   double pusherPresence(double t_s);
 

@@ -19,7 +19,10 @@ class ObjectMotion {
 
   /// Where the object would be had it never moved in the hand.
   Pose held(double t_s);
-  Pose object(double t_s) { return slips_ ? held(t_s) * slips_->offset(t_s) : held(t_s); }
+
+  /// Pose of the object in its own frame at the grasp; identity where it does not slip.
+  Pose slipped(double t_s) { return slips_ ? slips_->offset(t_s) : Pose::Identity(); }
+  bool isSlipping(double t_s) { return slips_ && slips_->isSlipping(t_s); }
   double pusherPresence(double t_s) { return slips_ ? slips_->pusherPresence(t_s) : 0.0; }
 
  private:

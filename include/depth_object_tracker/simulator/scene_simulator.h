@@ -21,12 +21,15 @@ struct SimulatedFrame {
   int object_pixels = 0;                    ///< in the image, occluded or not
   int visible_pixels = 0;
   std::optional<ControlInput> control;                 ///< while a robot holds the object
+  bool slipping = false;                               ///< it is moving in the robot's hand
   Pose T_camera_object_kinematics = Pose::Identity();  ///< where the robot believes it is; the truth without a robot
 
   double visibleFraction() const {
     return object_pixels == 0 ? 0.0 : static_cast<double>(visible_pixels) / object_pixels;
   }
 };
+
+class RobotArm;
 
 /// Deterministic for a config and a sequence of stamps. Not thread-safe.
 class SceneSimulator {
@@ -46,6 +49,9 @@ class SceneSimulator {
   Pose roughInitialPose(double error_m = 0.005, double error_rad = 0.07);
 
   const SimulationConfig& config() const;
+
+  /// The robot of a config with `robot_urdf`; null without. Its functions may be called from another thread.
+  RobotArm* robot();
 
  private:
   class Implementation;

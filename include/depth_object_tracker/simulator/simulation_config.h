@@ -62,6 +62,7 @@ struct SimulationConfig {
   double camera_pitch_rad = 0.436;  ///< down
   PinholeCamera camera{640, 480, 525.0, 525.0, 319.5, 239.5};
   DepthSensorConfig sensor;
+  std::string robot_urdf;  ///< robot scenarios: arm that holds the object (a file); empty = a gripper without a robot
 };
 
 /// @throws std::invalid_argument naming the value and the allowed ones.

@@ -6,6 +6,7 @@
 #include "depth_object_tracker/geometry/pinhole_camera.h"
 #include "depth_object_tracker/geometry/pose.h"
 #include "depth_object_tracker/model/control_input.h"
+#include "depth_object_tracker/render/known_occluders.h"
 #include "depth_object_tracker/tracker/object_model.h"
 #include "depth_object_tracker/tracker/tracker_config.h"
 #include "depth_object_tracker/tracker/tracker_result.h"
@@ -48,9 +49,10 @@ class ObjectTracker {
   /// @param stamp_s seconds of the image's exposure; equal to the last one: ignored (counted); before it: see design,
   /// time jump.
   /// @param control motion of a held object since the previous image; nullopt = the object is not held.
+  /// @param occluders what is known to stand in the view besides the object; null = nothing. It need not be exact.
   /// The view is read only during the call.
   TrackerResult update(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s,
-                       const std::optional<ControlInput>& control = std::nullopt);
+                       const std::optional<ControlInput>& control = std::nullopt, KnownOccluders* occluders = nullptr);
 
   /// The weighted particles of the last update (mesh origin, weights sum to 1, before resampling). Empty before the
   /// first.

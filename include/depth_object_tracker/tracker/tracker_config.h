@@ -5,6 +5,7 @@
 #include "depth_object_tracker/filter/filter_config.h"
 #include "depth_object_tracker/model/pixel_model_config.h"
 #include "depth_object_tracker/model/process_config.h"
+#include "depth_object_tracker/model/slip_config.h"
 
 #include <string>
 
@@ -35,6 +36,7 @@ struct TrackerConfig {
   PixelModelConfig pixel;
   OcclusionChainConfig occlusion;
   ProcessConfig process;
+  SlipConfig slip;
   FilterConfig filter;
   ResolutionConfig resolution;
   InitialisationConfig initialisation;

@@ -4,8 +4,10 @@
 
 #include "depth_object_tracker/geometry/pinhole_camera.h"
 #include "depth_object_tracker/geometry/pose.h"
+#include "depth_object_tracker/model/slip_estimator.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +45,7 @@ struct TrackerResult {
   Vector6d twist = Vector6d::Zero();        ///< of the mesh origin [m/s, rad/s], optical-frame axes
   Matrix6d twist_covariance = Matrix6d::Zero();
   bool grasped = false;
+  std::optional<SlipEstimate> slip;  ///< motion of the mesh origin in the hand; only while the hand is followed
   double effective_sample_size = 0.0;
   int num_particles = 0;
   double visible_fraction = 0.0;      ///< share of the object's pixels believed visible, [0, 1]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boxes, ellipsoids and capsules as triangle meshes.
-#include "depth_object_tracker/simulator/shape_meshes.h"
+#include "depth_object_tracker/geometry/shape_meshes.h"
 
 #include <cmath>
 
@@ -85,6 +85,11 @@ TriangleMesh makeCapsule(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
   TriangleMesh mesh;
   appendMesh(mesh, along_z, T_mesh_capsule);
   return mesh;
+}
+
+TriangleMesh makeCylinder(double radius_m, double length_m, int segments) {
+  const double half = 0.5 * length_m;
+  return revolve({{-half, radius_m}, {half, radius_m}}, -half, half, segments);
 }
 
 void appendMesh(TriangleMesh& mesh, const TriangleMesh& part, const Pose& T_mesh_part) {

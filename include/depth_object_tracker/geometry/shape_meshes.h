@@ -17,6 +17,9 @@ TriangleMesh makeEllipsoid(const Eigen::Vector3d& radii, int segments = 16);
 TriangleMesh makeCapsule(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius_from_m,
                          double radius_to_m, int segments = 12);
 
+/// Cylinder with flat ends about the origin, along z.
+TriangleMesh makeCylinder(double radius_m, double length_m, int segments = 24);
+
 /// Adds `part`, placed at T_mesh_part, to `mesh`.
 void appendMesh(TriangleMesh& mesh, const TriangleMesh& part, const Pose& T_mesh_part = Pose::Identity());
 
