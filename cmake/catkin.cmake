@@ -1,5 +1,5 @@
 # Finds catkin where the ROS layer is wanted: WITH_ROS, messages, and the folders of the devel space. Adds no target of ours.
-set(ROS_COMPONENTS geometry_msgs image_transport message_generation nodelet pluginlib rosbag roscpp roslib sensor_msgs
+set(ROS_COMPONENTS camera_info_manager dynamic_reconfigure geometry_msgs image_transport message_generation nodelet pluginlib rosbag roscpp roslib sensor_msgs
   std_msgs std_srvs tf2_ros visualization_msgs)
 
 # ros_find_python(): catkin's tools need a python3 that knows catkin_pkg; another one often stands first on the PATH.
@@ -57,9 +57,11 @@ add_message_files(DIRECTORY msg FILES Grasp.msg ParticleCloud.msg Slip.msg Track
 add_service_files(DIRECTORY srv FILES InitializeTracker.srv LoadObject.srv SetGrasp.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 
+generate_dynamic_reconfigure_options(cfg/OpenNI2Camera.cfg)
+
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES depth_object_tracker_core depth_object_tracker_ros
-  CATKIN_DEPENDS geometry_msgs image_transport message_runtime nodelet pluginlib rosbag roscpp roslib sensor_msgs std_msgs
+  CATKIN_DEPENDS camera_info_manager dynamic_reconfigure geometry_msgs image_transport message_runtime nodelet pluginlib rosbag roscpp roslib sensor_msgs std_msgs
     std_srvs tf2_ros visualization_msgs
   DEPENDS EIGEN3)

@@ -87,7 +87,7 @@ bool DepthCamera::open() {
     if (!openni2_) openni2_ = holdOpenNI2();
     device_ = std::make_unique<OpenNI2Device>(options_, serial_);
   } catch (const CameraError& error) {
-    report(Severity::kError, std::string(error.what()) + ". Waiting for it");
+    report(Severity::kError, std::string(error.what()) + " (waiting for it)");
     return false;
   }
   const DeviceDescription& description = device_->description();

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/ros/simulator_options.h"
 
-#include <sstream>
-#include <stdexcept>
+#include "depth_object_tracker/ros/parameter_reader.h"
 
 namespace depth_object_tracker {
 namespace {
@@ -10,47 +9,6 @@ namespace {
 // The trajectory's peaks and the object's place in the view are checked over so long; it never repeats.
 constexpr double kEndlessS = 600.0;
 constexpr double kDemoRestS = 0.8;
-
-/// Reads parameters of one node and notes what is wrong with them.
-class ParameterReader {
- public:
-  ParameterReader(const ros::NodeHandle& node, std::vector<std::string>& problems) : node_(node), problems_(problems) {}
-
-  template <typename Value>
-  void read(const std::string& key, const char* expected, Value& option) {
-    Value value{};
-    if (node_.getParam(key, value)) {
-      option = value;
-    } else if (node_.hasParam(key)) {
-      problems_.push_back("parameter '" + node_.resolveName(key) + "' must be " + expected);
-    }
-  }
-
-  void readNumber(const std::string& key, double low, double high, double& option) {
-    read(key, "a number", option);
-    if (option >= low && option <= high) return;
-    std::ostringstream problem;
-    problem << "parameter '" << node_.resolveName(key) << "' is " << option << "; valid range is [" << low << ", "
-            << high << "]";
-    problems_.push_back(problem.str());
-  }
-
-  template <typename Enum>
-  void readName(const std::string& key, Enum (*parse)(const std::string&), Enum& option) {
-    std::string name;
-    read(key, "a word", name);
-    if (name.empty()) return;
-    try {
-      option = parse(name);
-    } catch (const std::invalid_argument& error) {
-      problems_.push_back("parameter '" + node_.resolveName(key) + "': " + error.what());
-    }
-  }
-
- private:
-  const ros::NodeHandle& node_;
-  std::vector<std::string>& problems_;
-};
 
 }  // namespace
 

@@ -146,7 +146,8 @@ class VirtualStream : public oni::driver::StreamBase {
   std::atomic<bool> is_mirrored_{true};  // as devices are when nobody says otherwise
   std::atomic<bool> is_running_{false};
   int index_ = 0;
-  const Clock::time_point begin_ = Clock::now();
+  // The clock runs on while streams come and go.
+  inline static const Clock::time_point begin_ = Clock::now();
   std::thread thread_;
 };
 

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads the ROS parameters of a node and notes what is wrong with them, one sentence each.
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace depth_object_tracker {
+
+/// Options whose parameter is not set keep their value. Node and problems outlive the reader.
+class ParameterReader {
+ public:
+  ParameterReader(const ros::NodeHandle& node, std::vector<std::string>& problems) : node_(node), problems_(problems) {}
+
+  template <typename Value>
+  void read(const std::string& key, const char* expected, Value& option) {
+    Value value{};
+    if (node_.getParam(key, value)) {
+      option = value;
+    } else if (node_.hasParam(key)) {
+      problems_.push_back("parameter '" + node_.resolveName(key) + "' must be " + expected);
+    }
+  }
+
+  /// Valid are the values in [low, high].
+  template <typename Number>
+  void readNumber(const std::string& key, Number low, Number high, Number& option) {
+    read(key, "a number", option);
+    if (option >= low && option <= high) return;
+    std::ostringstream problem;
+    problem << "parameter '" << node_.resolveName(key) << "' is " << option << "; valid range is [" << low << ", "
+            << high << "]";
+    problems_.push_back(problem.str());
+  }
+
+  /// @param parse throws std::invalid_argument, whose text names the valid words.
+  template <typename Enum>
+  void readName(const std::string& key, Enum (*parse)(const std::string&), Enum& option) {
+    std::string name;
+    read(key, "a word", name);
+    if (name.empty()) return;
+    try {
+      option = parse(name);
+    } catch (const std::invalid_argument& error) {
+      problems_.push_back("parameter '" + node_.resolveName(key) + "': " + error.what());
+    }
+  }
+
+ private:
+  const ros::NodeHandle& node_;
+  std::vector<std::string>& problems_;
+};
+
+}  // namespace depth_object_tracker
