@@ -3,7 +3,7 @@
 #pragma once
 
 #include "recorded_camera.h"
-#include "ros/tracker_harness.h"
+#include "tracker_harness.h"
 
 #include <algorithm>
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "device_finder.h"
+#include "camera/device_finder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
