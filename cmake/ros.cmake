@@ -8,6 +8,7 @@ add_library(depth_object_tracker_ros SHARED
   src/ros/camera_conversions.cpp
   src/ros/camera_info_matcher.cpp
   src/ros/frame_inbox.cpp
+  src/ros/frame_lookup.cpp
   src/ros/held_motion.cpp
   src/ros/image_conversions.cpp
   src/ros/initial_pose_resolver.cpp

@@ -42,6 +42,12 @@ void ParticleFilter::stopMotion() {
   for (Vector6d& velocity : velocities_) velocity.setZero();
 }
 
+void ParticleFilter::moveCamera(const Pose& T_now_before) {
+  for (Pose& pose : poses_) pose = T_now_before * pose;
+  for (Vector6d& velocity : velocities_) velocity = rotated(velocity, T_now_before.linear());
+  last_mean_ = T_now_before * last_mean_;
+}
+
 FilterEstimate ParticleFilter::update(PoseLikelihood& likelihood, const ProcessStep& step, double likelihood_exponent,
                                       const std::vector<Pose>& hypotheses) {
   FilterEstimate estimate;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/ros/openni2_camera_options.h"
 
-#include "depth_object_tracker/ros/parameter_reader.h"
+#include "depth_object_tracker/ros/option_reader.h"
 
 #include <XmlRpcValue.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace depth_object_tracker {
 namespace {
@@ -23,15 +26,21 @@ void readDevice(const ros::NodeHandle& node, OpenNI2CameraOptions& options) {
   }
 }
 
+void readWholeNumber(OptionReader& reader, const std::string& key, int high, int& option) {
+  double number = option;
+  reader.readNumber(key, 1.0, high, number);
+  option = static_cast<int>(std::lround(std::min(std::max(number, 1.0), static_cast<double>(high))));
+}
+
 }  // namespace
 
 OpenNI2CameraOptions loadOpenNI2CameraOptions(const ros::NodeHandle& private_node) {
   OpenNI2CameraOptions options;
   readDevice(private_node, options);
-  ParameterReader reader(private_node, options.problems);
-  reader.readNumber("width", 1, 4096, options.camera.mode.width);
-  reader.readNumber("height", 1, 4096, options.camera.mode.height);
-  reader.readNumber("fps", 1, 1000, options.camera.mode.fps);
+  OptionReader reader(private_node, options.problems);
+  readWholeNumber(reader, "width", 4096, options.camera.mode.width);
+  readWholeNumber(reader, "height", 4096, options.camera.mode.height);
+  readWholeNumber(reader, "fps", 1000, options.camera.mode.fps);
   reader.read("registration", "true or false", options.camera.registration);
   reader.read("loop", "true or false", options.camera.loop);
   reader.readNumber("playback_speed", 0.0, 1000.0, options.camera.playback_speed);

@@ -92,6 +92,10 @@ NodeletOptions loadNodeletOptions(const ros::NodeHandle& private_node) {
   read("image_transport", "the name of an image transport", options.image_transport);
   read("robot", "true or false", options.robot);
   read("publish_tf", "true or false", options.publish_tf);
+  read("target_frame", "the name of a frame", options.frames.target_frame);
+  read("fixed_frame", "the name of a frame", options.frames.fixed_frame);
+  read("transform_wait_s", "a number (seconds)", options.frames.transform_wait_s);
+  checkRange(private_node, "transform_wait_s", options.frames.transform_wait_s, 1.0, options.problems);
   read("marker_use_mesh_resource", "true or false", options.marker_use_mesh_resource);
   read("publish_debug", "true or false", options.publish_debug);
   read("control_wait_s", "a number (seconds)", options.control_wait_s);

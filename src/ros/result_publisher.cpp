@@ -50,10 +50,13 @@ void ResultPublisher::setObject(const BuiltTracker& object) {
 }
 
 void ResultPublisher::publish(const FrameOutcome& outcome, const BuiltTracker& object) {
-  if (outcome.is_new_estimate && hasPoseToTell(outcome.result))
-    publishPose(outcome.header, outcome.result, object.name);
+  const bool has_place = outcome.output.problem.empty();
+  std_msgs::Header header = outcome.header;
+  header.frame_id = outcome.output_frame;
+  if (has_place && outcome.is_new_estimate && hasPoseToTell(outcome.result))
+    publishPose(header, toFrame(outcome.result, outcome.output.T_target_source), object.name);
   if (!outcome.processed || !object.tracker) return;
-  publishParticles(outcome.header, *object.tracker);
+  if (has_place) publishParticles(header, *object.tracker, outcome.output.T_target_source);
   publishOcclusion(outcome.header, *object.tracker);
   publishOverlay(outcome, *object.tracker);
   if (isWanted(marker_) && (!outcome.result.has_pose || isFinite(outcome.result))) {
@@ -81,11 +84,13 @@ void ResultPublisher::publishPose(const std_msgs::Header& header, const TrackerR
   tf_broadcaster_.sendTransform(transform);
 }
 
-void ResultPublisher::publishParticles(const std_msgs::Header& header, const ObjectTracker& tracker) {
+void ResultPublisher::publishParticles(const std_msgs::Header& header, const ObjectTracker& tracker,
+                                       const Pose& T_target_camera) {
   const bool cloud = isWanted(particles_), poses = isWanted(particle_poses_), points = isWanted(particle_points_);
   if (!cloud && !poses && !points) return;
-  const ParticlePoses particles = tracker.particles();
+  ParticlePoses particles = tracker.particles();
   if (particles.T_camera_object.empty()) return;
+  for (Pose& pose : particles.T_camera_object) pose = T_target_camera * pose;
   if (cloud) particles_.publish(toParticleCloud(particles, header));
   if (poses) particle_poses_.publish(toPoseArray(particles, header));
   if (points) particle_points_.publish(toPointCloud(particles, header));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/ros/simulator_options.h"
 
-#include "depth_object_tracker/ros/parameter_reader.h"
+#include "depth_object_tracker/ros/option_reader.h"
 
 namespace depth_object_tracker {
 namespace {
@@ -16,7 +16,7 @@ SimulatorOptions loadSimulatorOptions(const ros::NodeHandle& private_node) {
   SimulatorOptions options;
   options.simulation.duration_s = kEndlessS;
   options.simulation.first_rest_s = kDemoRestS;
-  ParameterReader reader(private_node, options.problems);
+  OptionReader reader(private_node, options.problems);
   reader.read("object_file", "the path of an object's YAML file", options.object_file);
   if (options.object_file.empty()) {
     options.problems.push_back("parameter '" + private_node.resolveName("object_file") +

@@ -53,6 +53,7 @@ void TrackerNodelet::start() {
   tf_listener_ = std::make_unique<tf2_ros::TransformListener>(*tf_buffer_);
 
   TrackerSession session(getName(), image_topic, info_topic, *tf_buffer_);
+  session.setFrames(options.frames);
   session.setTracker(buildFromParameters(options));
   if (!options.init_file.empty()) applyInitFile(options.init_file, session);
   worker_ = std::make_unique<TrackerWorker>(getName(), std::move(session), ResultPublisher(private_node, options),

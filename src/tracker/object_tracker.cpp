@@ -304,6 +304,19 @@ void ObjectTracker::reset() {
   implementation_->result = TrackerResult();
 }
 
+void ObjectTracker::moveCamera(const Pose& T_now_before) {
+  Implementation& self = *implementation_;
+  const Eigen::Matrix3d R_now_before = T_now_before.linear();
+  self.filter.moveCamera(T_now_before);
+  self.last_seen_centre = T_now_before * self.last_seen_centre;
+  self.last_mean.mean = T_now_before * self.last_mean.mean;
+  self.last_mean.covariance = rotated(self.last_mean.covariance, R_now_before);
+  self.result.T_camera_object = T_now_before * self.result.T_camera_object;
+  self.result.covariance = rotated(self.result.covariance, R_now_before);
+  self.result.twist = rotated(self.result.twist, R_now_before);
+  self.result.twist_covariance = rotated(self.result.twist_covariance, R_now_before);
+}
+
 void ObjectTracker::setEffort(double effort) {
   Implementation& self = *implementation_;
   self.effort = std::clamp(effort, 1e-3, 1.0);

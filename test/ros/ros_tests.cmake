@@ -11,6 +11,7 @@ add_tracker_test(ros_inputs_test
   SOURCES ros/camera_info_matcher_test.cpp ros/frame_inbox_test.cpp ros/parameter_loader_test.cpp ros/twist_buffer_test.cpp
   LIBRARIES depth_object_tracker_ros)
 add_tracker_test(tracker_session_test SOURCES ros/tracker_session_test.cpp LIBRARIES depth_object_tracker_ros)
+add_tracker_test(moving_camera_test SOURCES ros/moving_camera_test.cpp LIBRARIES depth_object_tracker_ros)
 
 # add_ros_test(NAME SOURCES...): a gtest program, and the test file NAME.test that starts it with a master of its own.
 function(add_ros_test name)

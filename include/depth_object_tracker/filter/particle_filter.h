@@ -55,6 +55,9 @@ class ParticleFilter {
   /// Velocities become zero (after a time jump or a gap).
   void stopMotion();
 
+  /// Tells all that is remembered in the axes of a camera that has moved. @param T_now_before p_now = T p_before.
+  void moveCamera(const Pose& T_now_before);
+
  private:
   void resampleIfNeeded(PoseLikelihood& likelihood);
   void predict(const ProcessStep& step);

@@ -19,7 +19,8 @@ class ResultPublisher {
 
   void setObject(const BuiltTracker& object);
 
-  /// Pose, twist and tf, unless LOST or UNINITIALIZED; particles, pictures and markers for those who listen.
+  /// Pose, twist and tf, unless LOST or UNINITIALIZED; particles, pictures and markers for those who listen. Pose,
+  /// twist, tf and particles are told in the outcome's output frame, pictures and markers in the camera's.
   void publish(const FrameOutcome& outcome, const BuiltTracker& object);
 
   void publishStatus(const TrackerStatus& status);
@@ -33,7 +34,7 @@ class ResultPublisher {
  private:
   bool isWanted(const ros::Publisher& publisher);
   void publishPose(const std_msgs::Header& header, const TrackerResult& result, const std::string& child_frame);
-  void publishParticles(const std_msgs::Header& header, const ObjectTracker& tracker);
+  void publishParticles(const std_msgs::Header& header, const ObjectTracker& tracker, const Pose& T_target_camera);
   void publishOcclusion(const std_msgs::Header& header, const ObjectTracker& tracker);
   void publishOverlay(const FrameOutcome& outcome, const ObjectTracker& tracker);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the ROS parameters of a node and notes what is wrong with them, one sentence each.
+// Reads parameters of one node and notes what is wrong with them.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -11,10 +11,12 @@
 
 namespace depth_object_tracker {
 
-/// Options whose parameter is not set keep their value. Node and problems outlive the reader.
-class ParameterReader {
+/// Options that are not set stay as they are; a wrong type or value is a problem, one sentence that names the
+/// parameter.
+class OptionReader {
  public:
-  ParameterReader(const ros::NodeHandle& node, std::vector<std::string>& problems) : node_(node), problems_(problems) {}
+  /// Both outlive the reader.
+  OptionReader(const ros::NodeHandle& node, std::vector<std::string>& problems) : node_(node), problems_(problems) {}
 
   template <typename Value>
   void read(const std::string& key, const char* expected, Value& option) {
@@ -26,9 +28,7 @@ class ParameterReader {
     }
   }
 
-  /// Valid are the values in [low, high].
-  template <typename Number>
-  void readNumber(const std::string& key, Number low, Number high, Number& option) {
+  void readNumber(const std::string& key, double low, double high, double& option) {
     read(key, "a number", option);
     if (option >= low && option <= high) return;
     std::ostringstream problem;
@@ -37,7 +37,7 @@ class ParameterReader {
     problems_.push_back(problem.str());
   }
 
-  /// @param parse throws std::invalid_argument, whose text names the valid words.
+  /// @param parse throws std::invalid_argument with the allowed words.
   template <typename Enum>
   void readName(const std::string& key, Enum (*parse)(const std::string&), Enum& option) {
     std::string name;
