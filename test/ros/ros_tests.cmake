@@ -29,6 +29,7 @@ endfunction()
 
 find_program(ROSTEST_PROGRAM rostest)
 if(ROSTEST_PROGRAM)
+  add_ros_test(output_frames_rostest ros/output_frames_rostest.cpp)
   add_ros_test(tracker_bad_input_rostest ros/tracker_bad_input_rostest.cpp)
   add_ros_test(tracker_bad_start_rostest ros/tracker_bad_start_rostest.cpp)
   add_ros_test(tracker_outputs_rostest ros/tracker_outputs_rostest.cpp)
