@@ -32,14 +32,15 @@ ResultPublisher::ResultPublisher(ros::NodeHandle private_node, const NodeletOpti
   particle_points_ = private_node.advertise<sensor_msgs::PointCloud2>("particle_points", 2);
   occlusion_ = private_node.advertise<sensor_msgs::Image>("occlusion", 2);
   camera_info_ = private_node.advertise<sensor_msgs::CameraInfo>("camera_info", 2);
-  overlay_ = private_node.advertise<sensor_msgs::Image>("overlay", 2);
+  overlay_ = image_transport::ImageTransport(private_node).advertise("overlay", 2);
   marker_ = private_node.advertise<visualization_msgs::MarkerArray>("marker", 2);
   status_ = private_node.advertise<TrackerStatus>("status", 5, true);
   if (options.publish_debug)
     image_address_ = private_node.advertise<std_msgs::UInt64>("debug/last_image_address", 5, true);
 }
 
-bool ResultPublisher::isWanted(const ros::Publisher& publisher) {
+template <typename Publisher>
+bool ResultPublisher::isWanted(const Publisher& publisher) {
   if (publisher.getNumSubscribers() == 0) return false;
   ++num_costly_messages_;
   return true;
