@@ -27,6 +27,16 @@ function(add_ros_test name)
     ENVIRONMENT "PATH=/usr/bin:$ENV{PATH};ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;ROS_HOSTNAME=localhost")
 endfunction()
 
+# add_script_test(NAME COMMAND...): a program that needs the devel space but no master.
+function(add_script_test name)
+  add_test(NAME ${name} COMMAND ${CATKIN_DEVEL_PREFIX}/env.sh ${ARGN})
+  set_tests_properties(${name} PROPERTIES TIMEOUT 120
+    ENVIRONMENT "PATH=/usr/bin:$ENV{PATH};ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;ROS_HOSTNAME=localhost")
+endfunction()
+
+add_script_test(launch_files_test
+  ${CMAKE_CURRENT_SOURCE_DIR}/ros/check_launch_files.py ${PROJECT_SOURCE_DIR}/launch ${PROJECT_SOURCE_DIR}/README.md)
+
 find_program(ROSTEST_PROGRAM rostest)
 if(ROSTEST_PROGRAM)
   add_ros_test(output_frames_rostest ros/output_frames_rostest.cpp)
