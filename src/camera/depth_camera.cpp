@@ -98,7 +98,7 @@ bool DepthCamera::open() {
                               toString(device_->mode()));
   last_frame_at_ = Clock::now();
   last_timestamp_s_ = -1.0;
-  end_is_reported_ = false;
+  has_ended_ = false;
   events_.on_open(description);
   return true;
 }
@@ -106,11 +106,12 @@ bool DepthCamera::open() {
 void DepthCamera::stream() {
   {
     std::unique_lock<std::mutex> lock(mutex_);
-    if (!is_wanted_) {
+    if (!is_wanted_ || has_ended_) {  // at the end of a recording OpenNI's own thread would spin
       lock.unlock();
       device_->stop();
       lock.lock();
-      changed_.wait_for(lock, kReadTimeout, [&] { return is_wanted_ || is_stopping_ || has_new_options_; });
+      changed_.wait_for(lock, kReadTimeout,
+                        [&] { return (is_wanted_ && !has_ended_) || is_stopping_ || has_new_options_; });
       last_frame_at_ = Clock::now();
       return;
     }
@@ -131,8 +132,9 @@ void DepthCamera::handOut(const DepthFrame& frame) {
 
 void DepthCamera::handleSilence() {
   if (device_->isRecording()) {
-    if (device_->isAtEnd() && !end_is_reported_) report(Severity::kInfo, "'" + options_.device + "' has ended");
-    end_is_reported_ = device_->isAtEnd();
+    if (!device_->isAtEnd()) return;
+    report(Severity::kInfo, "'" + options_.device + "' has ended");
+    has_ended_ = true;
   } else if (Clock::now() - last_frame_at_ > kLongestSilence) {
     close("has sent no image for " + std::to_string(kLongestSilence.count()) + " s");
   }

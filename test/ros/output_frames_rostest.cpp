@@ -68,6 +68,23 @@ TEST(OutputFrames, PosesAreToldInTheTargetFrameOnceTfKnowsIt) {
   EXPECT_NEAR(transform.transform.translation.x, (cameraInWorld() * testPose()).translation().x(), 0.003);
 }
 
+TEST(OutputFrames, ImagesWaitForThePlaceOfACameraThatMoves) {
+  const std::string name = "/in_fixed_frame";
+  setGoodParameters(name);
+  ros::param::set(name + "/fixed_frame", "world");
+  TrackerHarness tracker(name);
+  ASSERT_TRUE(tracker.isReady());
+  const TrackerStatus refused = tracker.step();
+  EXPECT_NE(refused.reason.find("tf cannot place 'camera_depth_optical_frame' in 'world'"), std::string::npos)
+      << refused.reason;
+  EXPECT_NE(refused.reason.find("~fixed_frame"), std::string::npos) << refused.reason;
+  tf2_ros::StaticTransformBroadcaster broadcaster;
+  broadcaster.sendTransform(cameraTransform());
+  ASSERT_TRUE(waitUntil([&] { return tracker.step().frames_processed > 0; }));
+  ASSERT_TRUE(tracker.initialise());
+  tracker.expectTracking();
+}
+
 TEST(OutputFrames, TfCanBeSwitchedOff) {
   const std::string name = "/without_tf";
   setGoodParameters(name);

@@ -68,7 +68,7 @@ class DepthCamera {
   std::string serial_;        // of the device that was open last
   std::string last_message_;  // each is reported once
   Clock::time_point last_frame_at_;
-  bool end_is_reported_ = false;
+  bool has_ended_ = false;
   Clock::time_point due_;  // of the next image of a recording
   double last_timestamp_s_ = -1.0;
   std::thread thread_;
