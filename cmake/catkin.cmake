@@ -1,5 +1,5 @@
 # Finds catkin where the ROS layer is wanted: WITH_ROS, messages, and the folders of the devel space. Adds no target of ours.
-set(ROS_COMPONENTS diagnostic_msgs diagnostic_updater dynamic_reconfigure geometry_msgs image_transport
+set(ROS_COMPONENTS camera_info_manager diagnostic_msgs diagnostic_updater dynamic_reconfigure geometry_msgs image_transport
   interactive_markers kdl_parser message_generation nodelet pluginlib rosbag roscpp roslib sensor_msgs
   std_msgs std_srvs tf2_ros visualization_msgs)
 
@@ -57,15 +57,16 @@ find_package(catkin REQUIRED COMPONENTS ${ROS_COMPONENTS})
 add_message_files(DIRECTORY msg FILES Grasp.msg ParticleCloud.msg Slip.msg TrackerStatus.msg)
 add_service_files(DIRECTORY srv FILES InitializeTracker.srv LoadObject.srv SetGrasp.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
-generate_dynamic_reconfigure_options(cfg/TrackerLive.cfg)
+generate_dynamic_reconfigure_options(cfg/OpenNI2Camera.cfg cfg/TrackerLive.cfg)
 # The .cfg file reads its defaults and ranges there.
 add_custom_command(OUTPUT ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_INCLUDE_DESTINATION}/TrackerLiveConfig.h APPEND
   DEPENDS ${PROJECT_SOURCE_DIR}/config/tracker.yaml)
 
+
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES depth_object_tracker_core depth_object_tracker_robot depth_object_tracker_ros
-  CATKIN_DEPENDS diagnostic_msgs diagnostic_updater dynamic_reconfigure geometry_msgs image_transport
+  CATKIN_DEPENDS camera_info_manager diagnostic_msgs diagnostic_updater dynamic_reconfigure geometry_msgs image_transport
     interactive_markers kdl_parser message_runtime nodelet pluginlib rosbag roscpp roslib sensor_msgs std_msgs
     std_srvs tf2_ros visualization_msgs
   DEPENDS EIGEN3)

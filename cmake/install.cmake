@@ -16,6 +16,13 @@ if(WITH_ROS)
   endif()
   install(TARGETS demo_monitor pose_marker scene_to_bag simulate_scene simulator_node track_sequence tracker_node
     RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  if(TARGET depth_object_tracker_camera)
+    install(TARGETS depth_object_tracker_camera depth_object_tracker_camera_nodelets depth_object_tracker_ros_camera
+      ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+      LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+      RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
+    install(TARGETS openni2_camera_node RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  endif()
   catkin_install_python(PROGRAMS scripts/evaluate scripts/plot_benchmark scripts/play_bag scripts/relay_joint_commands scripts/slip_roc
     DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   install(DIRECTORY scripts/evaluation DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION} FILES_MATCHING PATTERN *.py)
@@ -39,6 +46,9 @@ else()
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  if(TARGET depth_object_tracker_camera)
+    install(TARGETS depth_object_tracker_camera LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  endif()
   install(PROGRAMS scripts/evaluate scripts/plot_benchmark DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(DIRECTORY scripts/evaluation DESTINATION ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME} FILES_MATCHING PATTERN *.py)
   if(TARGET track_icp)

@@ -9,6 +9,7 @@ add_library(depth_object_tracker_ros SHARED
   src/ros/drop_watch.cpp
   src/ros/frame_inbox.cpp
   src/ros/hand_messages.cpp
+  src/ros/frame_lookup.cpp
   src/ros/held_motion.cpp
   src/ros/image_conversions.cpp
   src/ros/initial_pose_marker.cpp

@@ -46,6 +46,12 @@ void ParticleFilter::shiftVelocities(const Vector6d& shift) {
   for (Vector6d& velocity : velocities_) velocity += shift;
 }
 
+void ParticleFilter::moveCamera(const Pose& T_now_before) {
+  for (Pose& pose : poses_) pose = T_now_before * pose;
+  for (Vector6d& velocity : velocities_) velocity = rotated(velocity, T_now_before.linear());
+  last_mean_ = T_now_before * last_mean_;
+}
+
 FilterEstimate ParticleFilter::update(PoseLikelihood& likelihood, const ProcessStep& step, double likelihood_exponent,
                                       const std::vector<Pose>& hypotheses) {
   FilterEstimate estimate;

@@ -52,6 +52,18 @@ Matrix6d transportCovariance(const Matrix6d& covariance, const Eigen::Vector3d& 
   return jacobian * covariance * jacobian.transpose();
 }
 
+Vector6d rotated(const Vector6d& vector, const Eigen::Matrix3d& R_target_source) {
+  Vector6d result;
+  result << R_target_source * vector.head<3>(), R_target_source * vector.tail<3>();
+  return result;
+}
+
+Matrix6d rotated(const Matrix6d& covariance, const Eigen::Matrix3d& R_target_source) {
+  Matrix6d turn = Matrix6d::Zero();
+  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = R_target_source;
+  return turn * covariance * turn.transpose();
+}
+
 bool isValidPose(const Pose& pose) {
   if (!pose.matrix().allFinite()) return false;
   const Eigen::Matrix3d gram = pose.linear() * pose.linear().transpose();

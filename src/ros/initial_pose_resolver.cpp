@@ -22,19 +22,25 @@ CheckedInitialPose checkInitialPose(const geometry_msgs::PoseWithCovarianceStamp
   return checked;
 }
 
-ResolvedPose resolveInitialPose(const InitialPose& pose, const std::string& camera_frame, const tf2::BufferCore& tf) {
+ResolvedPose resolveInitialPose(const InitialPose& pose, const std::string& camera_frame, const tf2::BufferCore& tf,
+                                const MovingCamera& camera) {
   ResolvedPose resolved;
   resolved.T_camera_object = pose.T_frame_object;
   resolved.covariance = pose.covariance;
-  if (pose.frame_id.empty() || pose.frame_id == camera_frame) return resolved;
+  const std::string& frame = pose.frame_id.empty() ? camera_frame : pose.frame_id;
+  const bool has_moved = !camera.fixed_frame.empty() && !pose.stamp.isZero() && pose.stamp != camera.image_stamp;
+  if (frame == camera_frame && !has_moved) return resolved;
   try {
-    const auto transform = tf.lookupTransform(camera_frame, pose.frame_id, pose.stamp);
+    const auto transform =
+        has_moved
+            ? tf.lookupTransform(camera_frame, camera.image_stamp, frame, pose.stamp, camera.fixed_frame)
+            : tf.lookupTransform(camera_frame, frame, camera.fixed_frame.empty() ? pose.stamp : camera.image_stamp);
     const Pose T_camera_frame = fromTransformMessage(transform.transform);
     resolved.T_camera_object = T_camera_frame * pose.T_frame_object;
-    resolved.covariance = rotateCovariance(pose.covariance, T_camera_frame.linear());
+    resolved.covariance = rotated(pose.covariance, T_camera_frame.linear());
   } catch (const tf2::TransformException& error) {
     std::ostringstream problem;
-    problem << "the initial pose is given in frame '" << pose.frame_id << "' at stamp " << pose.stamp
+    problem << "the initial pose is given in frame '" << frame << "' at stamp " << pose.stamp
             << ", which tf cannot take to the camera's frame '" << camera_frame << "': " << error.what();
     resolved.problem = problem.str();
   }

@@ -99,7 +99,16 @@ TrackerParameters loadTrackerParameters(XmlRpc::XmlRpcValue value, const std::st
 
 NodeletOptions loadNodeletOptions(const ros::NodeHandle& private_node) {
   NodeletOptions options;
-  std::vector<std::string> known = {"tracker", "diagnostic_period"};  // read elsewhere
+  std::vector<std::string> known = {"tracker",
+                                    "diagnostic_period",
+                                    "robot",
+                                    "urdf_file",
+                                    "robot_occluder",
+                                    "robot_base_frame",
+                                    "joint_time_offset_s",
+                                    "max_joint_age_s",
+                                    "control_source",
+                                    "camera_pose_source"};  // read elsewhere
   const auto read = [&](const char* key, const char* expected, auto& option) {
     known.push_back(key);
     readOption(private_node, key, expected, option, options.problems);
@@ -114,6 +123,10 @@ NodeletOptions loadNodeletOptions(const ros::NodeHandle& private_node) {
   read("image_transport", "the name of an image transport", options.image_transport);
   read("publish_tf", "true or false", options.publish_tf);
   read("publish_diagnostics", "true or false", options.publish_diagnostics);
+  read("target_frame", "the name of a frame", options.frames.target_frame);
+  read("fixed_frame", "the name of a frame", options.frames.fixed_frame);
+  read("transform_wait_s", "a number (seconds)", options.frames.transform_wait_s);
+  checkRange(private_node, "transform_wait_s", options.frames.transform_wait_s, 1.0, options.problems);
   read("marker_use_mesh_resource", "true or false", options.marker_use_mesh_resource);
   read("publish_debug", "true or false", options.publish_debug);
   read("control_wait_s", "a number (seconds)", options.control_wait_s);

@@ -87,11 +87,4 @@ Matrix6d fillMissingVariances(const Matrix6d& covariance, double position_stddev
   return filled;
 }
 
-Matrix6d rotateCovariance(const Matrix6d& covariance, const Eigen::Matrix3d& R_target_source) {
-  Matrix6d rotation = Matrix6d::Zero();
-  rotation.topLeftCorner<3, 3>() = R_target_source;
-  rotation.bottomRightCorner<3, 3>() = R_target_source;
-  return rotation * covariance * rotation.transpose();
-}
-
 }  // namespace depth_object_tracker

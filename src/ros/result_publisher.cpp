@@ -32,7 +32,7 @@ ResultPublisher::ResultPublisher(ros::NodeHandle private_node, const NodeletOpti
   particle_points_ = private_node.advertise<sensor_msgs::PointCloud2>("particle_points", 2);
   occlusion_ = private_node.advertise<sensor_msgs::Image>("occlusion", 2);
   camera_info_ = private_node.advertise<sensor_msgs::CameraInfo>("camera_info", 2);
-  overlay_ = private_node.advertise<sensor_msgs::Image>("overlay", 2);
+  overlay_ = image_transport::ImageTransport(private_node).advertise("overlay", 2);
   marker_ = private_node.advertise<visualization_msgs::MarkerArray>("marker", 2);
   slip_ = private_node.advertise<Slip>("slip", 5);
   kinematic_correction_ = private_node.advertise<geometry_msgs::PoseWithCovarianceStamped>("kinematic_correction", 5);
@@ -41,7 +41,8 @@ ResultPublisher::ResultPublisher(ros::NodeHandle private_node, const NodeletOpti
     image_address_ = private_node.advertise<std_msgs::UInt64>("debug/last_image_address", 5, true);
 }
 
-bool ResultPublisher::isWanted(const ros::Publisher& publisher) {
+template <typename Publisher>
+bool ResultPublisher::isWanted(const Publisher& publisher) {
   if (publisher.getNumSubscribers() == 0) return false;
   ++num_costly_messages_;
   return true;
@@ -52,11 +53,14 @@ void ResultPublisher::setObject(const BuiltTracker& object) {
 }
 
 void ResultPublisher::publish(const FrameOutcome& outcome, const BuiltTracker& object) {
-  if (outcome.is_new_estimate && hasPoseToTell(outcome.result))
-    publishPose(outcome.header, outcome.result, object.name);
+  const bool has_place = outcome.output.problem.empty();
+  std_msgs::Header header = outcome.header;
+  header.frame_id = outcome.output_frame;
+  if (has_place && outcome.is_new_estimate && hasPoseToTell(outcome.result))
+    publishPose(header, toFrame(outcome.result, outcome.output.T_target_source), object.name);
   if (outcome.is_new_estimate && outcome.hand && isFinite(outcome.result)) publishHand(*outcome.hand, outcome.header);
   if (!outcome.processed || !object.tracker) return;
-  publishParticles(outcome.header, *object.tracker);
+  if (has_place) publishParticles(header, *object.tracker, outcome.output.T_target_source);
   publishOcclusion(outcome.header, *object.tracker);
   publishOverlay(outcome, *object.tracker);
   if (isWanted(marker_) && (!outcome.result.has_pose || isFinite(outcome.result))) {
@@ -91,11 +95,13 @@ void ResultPublisher::publishHand(const HandReport& hand, const std_msgs::Header
   if (publish_tf_) tf_broadcaster_.sendTransform(toCorrectionTransform(hand, header.stamp));
 }
 
-void ResultPublisher::publishParticles(const std_msgs::Header& header, const ObjectTracker& tracker) {
+void ResultPublisher::publishParticles(const std_msgs::Header& header, const ObjectTracker& tracker,
+                                       const Pose& T_target_camera) {
   const bool cloud = isWanted(particles_), poses = isWanted(particle_poses_), points = isWanted(particle_points_);
   if (!cloud && !poses && !points) return;
-  const ParticlePoses particles = tracker.particles();
+  ParticlePoses particles = tracker.particles();
   if (particles.T_camera_object.empty()) return;
+  for (Pose& pose : particles.T_camera_object) pose = T_target_camera * pose;
   if (cloud) particles_.publish(toParticleCloud(particles, header));
   if (poses) particle_poses_.publish(toPoseArray(particles, header));
   if (points) particle_points_.publish(toPointCloud(particles, header));

@@ -73,6 +73,7 @@ void TrackerNodelet::start() {
   tf_listener_ = std::make_unique<tf2_ros::TransformListener>(*tf_buffer_);
 
   TrackerSession session(getName(), image_topic, info_topic, *tf_buffer_);
+  session.setFrames(options.frames);
   const BuiltTracker built = buildFromParameters(options);
   session.setTracker(built);
   if (!options.last_pose_file.empty()) {

@@ -123,6 +123,7 @@ FrameOutcome TrackerSession::process(const CameraFrame& frame) {
   last_header_ = outcome.header;
   if (problem.empty()) checkSetUp(frame, outcome);
   if (problem.empty() && !object_.tracker) problem = object_.problem;
+  if (problem.empty()) problem = followCamera(outcome.header.stamp);
   if (!problem.empty()) {
     log_.warn(problem);
     outcome.result = refusedResult(problem);
@@ -131,7 +132,35 @@ FrameOutcome TrackerSession::process(const CameraFrame& frame) {
   warnAboutCalibration(frame);
   initial_pose_problem_ = applyPendingPose(outcome);
   runTracker(outcome);
+  placeOutput(outcome);
   return outcome;
+}
+
+std::chrono::steady_clock::time_point TrackerSession::transformDeadline() const {
+  return Clock::now() +
+         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(frames_.transform_wait_s));
+}
+
+/// Tells the tracker how the camera has moved in the fixed frame since the last image; returns why that is not known.
+/// An image from an unknown place is not used: taken as from the last one, it would move the object.
+std::string TrackerSession::followCamera(const ros::Time& stamp) {
+  if (frames_.fixed_frame.empty()) return "";
+  const FrameLookup found = lookUpFrame(tf_, frames_.fixed_frame, camera_frame_, stamp, transformDeadline());
+  if (!found.problem.empty()) {
+    return "image on '" + image_topic_ + "' refused: " + found.problem +
+           "; publish tf of the camera, or clear ~fixed_frame for a camera that stands still";
+  }
+  if (T_fixed_camera_) object_.tracker->moveCamera(found.T_target_source.inverse() * *T_fixed_camera_);
+  T_fixed_camera_ = found.T_target_source;
+  return "";
+}
+
+/// Finds out how poses are taken to the frame that they are to be told in.
+void TrackerSession::placeOutput(FrameOutcome& outcome) {
+  outcome.output_frame = frames_.target_frame.empty() ? camera_frame_ : frames_.target_frame;
+  if (!outcome.is_new_estimate || frames_.target_frame.empty()) return;
+  outcome.output = lookUpFrame(tf_, outcome.output_frame, camera_frame_, outcome.header.stamp, transformDeadline());
+  if (!outcome.output.problem.empty()) log_.warn("no pose is published: " + outcome.output.problem);
 }
 
 /// Fills depth and camera; returns why the image cannot be used.
@@ -174,7 +203,8 @@ void TrackerSession::warnAboutCalibration(const CameraFrame& frame) {
 /// Hands the pending pose to the tracker; returns why it cannot be done (yet).
 std::string TrackerSession::applyPendingPose(const FrameOutcome& outcome) {
   if (!pending_pose_) return initial_pose_problem_;
-  ResolvedPose resolved = resolveInitialPose(pending_pose_->pose, camera_frame_, tf_);
+  ResolvedPose resolved =
+      resolveInitialPose(pending_pose_->pose, camera_frame_, tf_, {frames_.fixed_frame, last_header_.stamp});
   if (!resolved.problem.empty()) {
     if (!pending_pose_->deadline) pending_pose_->deadline = Clock::now() + kTransformTimeout;
     if (Clock::now() < *pending_pose_->deadline) return resolved.problem;

@@ -119,8 +119,8 @@ class ObjectTracker::Implementation {
   PoseStatistics last_mean;  // of the centre
   bool is_anywhere = false;  // nothing is known of the pose yet
   bool is_blind = false;     // nothing of the object was seen in the last image, or not where it was thought to be
-  double reacquired_s = kLongAgoS;  // since the object was found again
-  bool fit_is_poor = false;         // look around in the next frame
+  double reacquired_s = kLongAgoS;         // since the object was found again
+  bool fit_is_poor = false;                // look around in the next frame
   std::optional<ProcessStep> step_in_use;  // of the last image that was looked at
   bool follows_hand = false;
   Vector6d hand_velocity = Vector6d::Zero();  // of the centre as the robot has it; zero when it is not followed
@@ -456,6 +456,20 @@ void ObjectTracker::initialiseAnywhere() {
 void ObjectTracker::reset() {
   implementation_->status.reset();
   implementation_->result = TrackerResult();
+}
+
+void ObjectTracker::moveCamera(const Pose& T_now_before) {
+  Implementation& self = *implementation_;
+  const Eigen::Matrix3d R_now_before = T_now_before.linear();
+  self.filter.moveCamera(T_now_before);
+  self.last_seen_centre = T_now_before * self.last_seen_centre;
+  self.hand_velocity = rotated(self.hand_velocity, R_now_before);
+  self.last_mean.mean = T_now_before * self.last_mean.mean;
+  self.last_mean.covariance = rotated(self.last_mean.covariance, R_now_before);
+  self.result.T_camera_object = T_now_before * self.result.T_camera_object;
+  self.result.covariance = rotated(self.result.covariance, R_now_before);
+  self.result.twist = rotated(self.result.twist, R_now_before);
+  self.result.twist_covariance = rotated(self.result.twist_covariance, R_now_before);
 }
 
 void ObjectTracker::setEffort(double effort) {

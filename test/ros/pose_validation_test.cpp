@@ -95,7 +95,7 @@ TEST(PoseValidation, TurnsCovariancesWithTheFrame) {
   covariance(0, 0) = 4.0;
   covariance(5, 5) = 9.0;
   const Eigen::Matrix3d R = expSo3(Eigen::Vector3d(0.0, M_PI / 2, 0.0));  // x goes to -z, z goes to x
-  const Matrix6d turned = rotateCovariance(covariance, R);
+  const Matrix6d turned = rotated(covariance, R);
   EXPECT_NEAR(turned(2, 2), 4.0, 1e-9);
   EXPECT_NEAR(turned(3, 3), 9.0, 1e-9);
   EXPECT_NEAR(turned.trace(), 13.0, 1e-9);

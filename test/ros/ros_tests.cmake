@@ -13,6 +13,7 @@ add_tracker_test(ros_inputs_test
           ros/twist_buffer_test.cpp
   LIBRARIES depth_object_tracker_ros)
 add_tracker_test(tracker_session_test SOURCES ros/tracker_session_test.cpp LIBRARIES depth_object_tracker_ros)
+add_tracker_test(moving_camera_test SOURCES ros/moving_camera_test.cpp LIBRARIES depth_object_tracker_ros)
 
 add_tracker_test(robot_session_test SOURCES ros/robot_session_test.cpp LIBRARIES depth_object_tracker_ros)
 
@@ -31,11 +32,22 @@ function(add_ros_test name)
     ENVIRONMENT "PATH=/usr/bin:$ENV{PATH};ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;ROS_HOSTNAME=localhost")
 endfunction()
 
+# add_script_test(NAME COMMAND...): a program that needs the devel space but no master.
+function(add_script_test name)
+  add_test(NAME ${name} COMMAND ${CATKIN_DEVEL_PREFIX}/env.sh ${ARGN})
+  set_tests_properties(${name} PROPERTIES TIMEOUT 120
+    ENVIRONMENT "PATH=/usr/bin:$ENV{PATH};ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;ROS_HOSTNAME=localhost")
+endfunction()
+
+add_script_test(launch_files_test
+  ${CMAKE_CURRENT_SOURCE_DIR}/ros/check_launch_files.py ${PROJECT_SOURCE_DIR}/launch ${PROJECT_SOURCE_DIR}/README.md)
+
 find_program(ROSTEST_PROGRAM rostest)
 if(ROSTEST_PROGRAM)
   add_ros_test(initial_pose_rostest ros/initial_pose_rostest.cpp)
   add_ros_test(live_reconfigure_rostest ros/live_reconfigure_rostest.cpp)
   add_ros_test(robot_rostest ros/robot_rostest.cpp)
+  add_ros_test(output_frames_rostest ros/output_frames_rostest.cpp)
   add_ros_test(tracker_bad_input_rostest ros/tracker_bad_input_rostest.cpp)
   add_ros_test(tracker_bad_start_rostest ros/tracker_bad_start_rostest.cpp)
   add_ros_test(tracker_diagnostics_rostest ros/tracker_diagnostics_rostest.cpp)

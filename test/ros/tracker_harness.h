@@ -54,7 +54,8 @@ class Recorder {
   }
   std::size_t size() const { return messages().size(); }
   Pointer newest() const { return size() == 0 ? Pointer() : messages().back(); }
-  bool isConnected() const { return subscriber_.getNumPublishers() > 0; }
+  std::uint32_t numPublishers() const { return subscriber_.getNumPublishers(); }
+  bool isConnected() const { return numPublishers() > 0; }
 
  private:
   mutable std::mutex mutex_;

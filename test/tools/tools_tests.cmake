@@ -29,4 +29,10 @@ if(TARGET scene_to_bag)
       ${PROJECT_SOURCE_DIR}/meshes/drill.obj)
   set_tests_properties(replay_launch_test PROPERTIES TIMEOUT 300 RUN_SERIAL TRUE
     ENVIRONMENT "ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;ROS_HOSTNAME=localhost")
+
+  add_test(NAME replay_loop_rostest
+    COMMAND ${CATKIN_DEVEL_PREFIX}/env.sh ${CMAKE_CURRENT_SOURCE_DIR}/tools/replay_looped
+      ${PROJECT_SOURCE_DIR}/meshes/drill.obj)
+  set_tests_properties(replay_loop_rostest PROPERTIES TIMEOUT 300 RUN_SERIAL TRUE
+    ENVIRONMENT "ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;ROS_HOSTNAME=localhost")
 endif()

@@ -63,6 +63,8 @@ class ParticleFilter {
 
   /// Adds to all velocities [m/s, rad/s]: what they are relative to has changed.
   void shiftVelocities(const Vector6d& shift);
+  /// Tells all that is remembered in the axes of a camera that has moved. @param T_now_before p_now = T p_before.
+  void moveCamera(const Pose& T_now_before);
 
  private:
   void summarise(FilterEstimate& estimate, const ProcessStep& step);

@@ -33,6 +33,12 @@ Vector6d difference(const Pose& to, const Pose& from);
 /// offset = -R c, so J = [I, [R c]x; 0, I].
 Matrix6d transportCovariance(const Matrix6d& covariance, const Eigen::Vector3d& offset_camera);
 
+/// A 6-vector (perturbation or twist of a point) told in other fixed axes: both halves turned by R_target_source.
+Vector6d rotated(const Vector6d& vector, const Eigen::Matrix3d& R_target_source);
+
+/// Its covariance told in other fixed axes.
+Matrix6d rotated(const Matrix6d& covariance, const Eigen::Matrix3d& R_target_source);
+
 /// True when all entries are finite and the rotation is orthonormal to 1e-6.
 bool isValidPose(const Pose& pose);
 

@@ -32,7 +32,15 @@ struct ResolvedPose {
   std::string problem;                     ///< empty = usable; otherwise both frames, the stamp and what tf says
 };
 
+/// For a camera that moves: where it is when the pose is to be used. An object is expected to have rested in the fixed
+/// frame since the pose's stamp.
+struct MovingCamera {
+  std::string fixed_frame;  ///< empty = the camera stands still
+  ros::Time image_stamp;
+};
+
 /// Never waits: tf that is late is a problem now, which may be gone at the next call.
-ResolvedPose resolveInitialPose(const InitialPose& pose, const std::string& camera_frame, const tf2::BufferCore& tf);
+ResolvedPose resolveInitialPose(const InitialPose& pose, const std::string& camera_frame, const tf2::BufferCore& tf,
+                                const MovingCamera& camera = {});
 
 }  // namespace depth_object_tracker

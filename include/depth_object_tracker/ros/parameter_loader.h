@@ -3,6 +3,7 @@
 // itself.
 #pragma once
 
+#include "depth_object_tracker/ros/frame_lookup.h"
 #include "depth_object_tracker/tracker/tracker_config.h"
 
 #include <XmlRpcValue.h>
@@ -39,6 +40,7 @@ struct NodeletOptions {
   std::string image_transport = "raw";
   bool publish_tf = true;
   bool publish_diagnostics = true;
+  FrameOptions frames;
   bool marker_use_mesh_resource = false;  ///< rviz loads the mesh file itself, instead of a triangle list
   bool publish_debug = false;             ///< ~debug/last_image_address
   double control_wait_s = 0.02;           ///< longest wait for the control twist that belongs to an image

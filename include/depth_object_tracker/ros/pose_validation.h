@@ -23,7 +23,4 @@ CheckedPose checkPose(const geometry_msgs::PoseWithCovariance& message);
 /// Axes of a partly given covariance that carry no variance (rviz leaves z, roll and pitch at 0) take the default's.
 Matrix6d fillMissingVariances(const Matrix6d& covariance, double position_stddev_m, double rotation_stddev_rad);
 
-/// The covariance seen in other fixed axes: both blocks turned by R_target_source.
-Matrix6d rotateCovariance(const Matrix6d& covariance, const Eigen::Matrix3d& R_target_source);
-
 }  // namespace depth_object_tracker

@@ -6,6 +6,7 @@
 #include "depth_object_tracker/ros/tracker_session.h"
 
 #include <depth_object_tracker/TrackerStatus.h>
+#include <image_transport/image_transport.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -19,7 +20,8 @@ class ResultPublisher {
 
   void setObject(const BuiltTracker& object);
 
-  /// Pose, twist and tf, unless LOST or UNINITIALIZED; particles, pictures and markers for those who listen.
+  /// Pose, twist and tf, unless LOST or UNINITIALIZED; particles, pictures and markers for those who listen. Pose,
+  /// twist, tf and particles are told in the outcome's output frame, pictures and markers in the camera's.
   void publish(const FrameOutcome& outcome, const BuiltTracker& object);
 
   void publishStatus(const TrackerStatus& status);
@@ -31,10 +33,11 @@ class ResultPublisher {
   std::uint64_t numCostlyMessages() const { return num_costly_messages_; }
 
  private:
-  bool isWanted(const ros::Publisher& publisher);
+  template <typename Publisher>
+  bool isWanted(const Publisher& publisher);
   void publishPose(const std_msgs::Header& header, const TrackerResult& result, const std::string& child_frame);
   void publishHand(const HandReport& hand, const std_msgs::Header& header);
-  void publishParticles(const std_msgs::Header& header, const ObjectTracker& tracker);
+  void publishParticles(const std_msgs::Header& header, const ObjectTracker& tracker, const Pose& T_target_camera);
   void publishOcclusion(const std_msgs::Header& header, const ObjectTracker& tracker);
   void publishOverlay(const FrameOutcome& outcome, const ObjectTracker& tracker);
 
@@ -42,8 +45,9 @@ class ResultPublisher {
   std::uint64_t num_costly_messages_ = 0;
   MarkerBuilder marker_builder_;
   tf2_ros::TransformBroadcaster tf_broadcaster_;
-  ros::Publisher pose_, twist_, particles_, particle_poses_, particle_points_, occlusion_, camera_info_, overlay_,
-      marker_, slip_, kinematic_correction_, status_, image_address_;
+  ros::Publisher pose_, twist_, particles_, particle_poses_, particle_points_, occlusion_, camera_info_, marker_, slip_,
+      kinematic_correction_, status_, image_address_;
+  image_transport::Publisher overlay_;  // the one picture worth compressing on its way to another machine
 };
 
 }  // namespace depth_object_tracker

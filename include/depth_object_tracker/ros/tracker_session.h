@@ -4,6 +4,7 @@
 
 #include "depth_object_tracker/ros/camera_conversions.h"
 #include "depth_object_tracker/ros/frame_inbox.h"
+#include "depth_object_tracker/ros/frame_lookup.h"
 #include "depth_object_tracker/ros/hand_messages.h"
 #include "depth_object_tracker/ros/held_motion.h"
 #include "depth_object_tracker/ros/initial_pose_resolver.h"
@@ -34,6 +35,8 @@ struct FrameOutcome {
   DepthImageView depth;          ///< valid as long as the image; empty when not processed
   PinholeCamera camera;
   std::optional<HandReport> hand;  ///< while the object is held and follows the hand
+  std::string output_frame;        ///< where poses are to be told; the camera's frame or ~target_frame
+  FrameLookup output;              ///< T_target_source from the camera's frame to that one
 };
 
 /// How an initialisation that somebody waits for ended.
@@ -51,6 +54,8 @@ class TrackerSession {
   /// @param tf outlives the session. @param image_topic for messages, and to tell raw from rectified images.
   TrackerSession(const std::string& name, const std::string& image_topic, const std::string& info_topic,
                  tf2::BufferCore& tf);
+
+  void setFrames(const FrameOptions& frames) { frames_ = frames; }
 
   /// Takes a new object (or the problem that there is none), forgetting the old one's pose.
   void setTracker(BuiltTracker built);
@@ -122,6 +127,9 @@ class TrackerSession {
   void checkSetUp(const CameraFrame& frame, const FrameOutcome& outcome);
   std::string applyPendingPose(const FrameOutcome& outcome);
   bool restoreGivenPose(double stamp_s);
+  std::string followCamera(const ros::Time& stamp);
+  void placeOutput(FrameOutcome& outcome);
+  std::chrono::steady_clock::time_point transformDeadline() const;
   std::optional<ControlInput> controlFor(double stamp_s);
   void runTracker(FrameOutcome& outcome);
   void detectGrasp(const FrameOutcome& outcome);
@@ -135,6 +143,8 @@ class TrackerSession {
   std::string info_topic_;
   Intrinsics intrinsics_;
   tf2::BufferCore& tf_;
+  FrameOptions frames_;
+  std::optional<Pose> T_fixed_camera_;  // at the last image that the tracker saw
   ThrottledLog log_;
   SelfCheck self_check_;
 

@@ -37,6 +37,11 @@ class ObjectTracker {
   /// Forgets the object: UNINITIALIZED until the next initialise().
   void reset();
 
+  /// The camera has moved since the last update: what is remembered is told in its new axes, so that an object at rest
+  /// in the world stays at rest, and twists are relative to the world. Occlusion beliefs stay with their pixels.
+  /// @param T_now_before p_now = T_now_before * p_before, of points at rest in the world.
+  void moveCamera(const Pose& T_now_before);
+
   /// Share of the configured computing effort to spend on the next images, in (0, 1]: particles and pixels are both
   /// reduced to its square root. See FrameBudget.
   void setEffort(double effort);

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The camera nodelet as a node of its own.
+#include "depth_object_tracker/ros/openni2_camera_nodelet.h"
+
+#include <nodelet/loader.h>
+#include <ros/ros.h>
+#include <boost/function.hpp>
+#include <boost/make_shared.hpp>
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "openni2_camera");
+  ros::NodeHandle node;  // keeps the node alive until the end
+  const boost::function<boost::shared_ptr<nodelet::Nodelet>(const std::string&)> create = [](const std::string&) {
+    return boost::make_shared<depth_object_tracker::OpenNI2CameraNodelet>();
+  };
+  nodelet::Loader loader(create);
+  const nodelet::V_string arguments(argv + 1, argv + argc);
+  if (!loader.load(ros::this_node::getName(), "depth_object_tracker/OpenNI2Camera", ros::names::getRemappings(),
+                   arguments))
+    return 1;
+  ros::spin();
+  return 0;
+}

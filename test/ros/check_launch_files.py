@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every argument of every launch file is documented: for `roslaunch --ros-args`, and in the README's table.
+
+Usage: check_launch_files.py LAUNCH_FOLDER README
+Needs a sourced devel or install space.
+"""
+import pathlib
+import re
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+
+LEAST_WORDS = 1
+
+
+def arguments_of(launch):
+    """Those that a user may set: others have a value."""
+    root = ElementTree.parse(str(launch)).getroot()
+    return [element for element in root.findall("arg") if "value" not in element.attrib]
+
+
+def readme_rows(readme):
+    """Text of the README's table row of each launch file."""
+    rows = {}
+    for line in readme.read_text(encoding="utf-8").splitlines():
+        match = re.match(r"\| `(\w+\.launch)` \| (.*) \|$", line)
+        if match:
+            rows[match.group(1)] = match.group(2)
+    return rows
+
+
+def check_ros_args(launch, names):
+    answer = subprocess.run(["roslaunch", "--ros-args", str(launch)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                            text=True, check=False, timeout=60)
+    text = answer.stdout
+    if answer.returncode != 0:
+        yield f"roslaunch --ros-args fails: {text}"
+    if "undocumented" in text.lower() or "warning" in text.lower():
+        yield f"roslaunch --ros-args complains: {text}"
+    for name in names:
+        if not re.search(rf"^\s*{re.escape(name)}\b", text, re.MULTILINE):
+            yield f"roslaunch --ros-args does not list '{name}': {text}"
+
+
+def problems_of(launch, rows):
+    arguments = arguments_of(launch)
+    names = [argument.attrib["name"] for argument in arguments]
+    for argument in arguments:
+        if len(argument.attrib.get("doc", "").split()) < LEAST_WORDS:
+            yield f"argument '{argument.attrib['name']}' has no doc"
+    if not launch.read_text(encoding="utf-8").lstrip().startswith("<!--"):
+        yield "does not begin with a comment that says what it does"
+    yield from check_ros_args(launch, names)
+    row = rows.get(launch.name)
+    if row is None:
+        yield "has no row in the README's table of launch files"
+        return
+    described = set(re.findall(r"\b(\w+):=", row))
+    if described != set(names):
+        yield f"the README lacks {sorted(set(names) - described)} and has {sorted(described - set(names))} too many"
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    launch_files = sorted(pathlib.Path(sys.argv[1]).glob("*.launch"))
+    rows = readme_rows(pathlib.Path(sys.argv[2]))
+    problems = [f"{launch.name}: {problem}" for launch in launch_files for problem in problems_of(launch, rows)]
+    problems += [f"README: there is no {name}" for name in rows if name not in {launch.name for launch in launch_files}]
+    for problem in problems:
+        print(problem)
+    print(f"{len(launch_files)} launch files, {len(problems)} problems")
+    sys.exit(1 if problems or not launch_files else 0)
+
+
+if __name__ == "__main__":
+    main()
