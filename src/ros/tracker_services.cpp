@@ -25,6 +25,13 @@ Clock::time_point after(double seconds) {
 template <typename Type>
 using Promise = std::shared_ptr<std::promise<Type>>;
 
+bool answer(const InitialisationOutcome& outcome, InitializeTracker::Response& response) {
+  response.success = outcome.success;
+  response.message = outcome.message;
+  response.pose = outcome.pose;
+  return true;
+}
+
 }  // namespace
 
 TrackerServices::TrackerServices(const ros::NodeHandle& private_node, TrackerWorker& worker, const tf2::BufferCore& tf)
@@ -69,22 +76,36 @@ bool TrackerServices::initializeAtMarker(std_srvs::Trigger::Response& response) 
   request.mode = InitializeTracker::Request::FROM_POSE;
   request.pose.header = pose->header;
   request.pose.pose.pose = pose->pose;
-  InitializeTracker::Response answer;
-  initialize(request, answer);
-  response.success = answer.success;
-  response.message = answer.message;
+  InitializeTracker::Response outcome;
+  initialize(request, outcome);
+  response.success = outcome.success;
+  response.message = outcome.message;
   return true;
 }
 
 bool TrackerServices::initialize(InitializeTracker::Request& request, InitializeTracker::Response& response) {
-  if (request.mode != InitializeTracker::Request::FROM_POSE) {
-    response.message = "mode " + std::to_string(request.mode) + " is not available yet; use FROM_POSE (" +
-                       std::to_string(InitializeTracker::Request::FROM_POSE) + ")";
+  using Mode = InitializeTracker::Request;
+  if (request.mode != Mode::FROM_POSE && request.mode != Mode::GLOBAL && request.mode != Mode::IN_HAND) {
+    response.message = "mode " + std::to_string(request.mode) + " is not available; use FROM_POSE (" +
+                       std::to_string(Mode::FROM_POSE) + "), IN_HAND (" + std::to_string(Mode::IN_HAND) +
+                       ") or GLOBAL (" + std::to_string(Mode::GLOBAL) + "), which also finds an object on a table";
     return true;
   }
   if (!std::isfinite(request.timeout_s) || request.timeout_s < 0.0 || request.timeout_s > kMaxTimeoutS) {
     response.message = "timeout_s is " + std::to_string(request.timeout_s) + "; it must be in [0, 3600]";
     return true;
+  }
+  if (request.mode == Mode::GLOBAL)
+    return answer(startAndWait([](TrackerSession& session,
+                                  InitialisationCallback callback) { session.initialiseAnywhere(std::move(callback)); },
+                               request.timeout_s, "the whole image is searched, from the next one on"),
+                  response);
+  if (request.mode == Mode::IN_HAND) {
+    if (request.link.empty()) {
+      response.message = "IN_HAND needs `link`, the frame of the hand, and `pose`, the object's pose in it";
+      return true;
+    }
+    request.pose.header.frame_id = request.link;
   }
   const CheckedInitialPose checked = checkInitialPose(request.pose);
   const std::string problem = checked.problem.empty() ? findObstacle(checked.pose) : checked.problem;
@@ -93,11 +114,11 @@ bool TrackerServices::initialize(InitializeTracker::Request& request, Initialize
     response.message = problem;
     return true;
   }
-  const InitialisationOutcome outcome = initialiseAndWait(checked.pose, request.timeout_s);
-  response.success = outcome.success;
-  response.message = outcome.message;
-  response.pose = outcome.pose;
-  return true;
+  const auto start = [pose = checked.pose](TrackerSession& session, InitialisationCallback callback) {
+    session.initialise(pose, std::move(callback));
+  };
+  return answer(startAndWait(start, request.timeout_s, "initial pose accepted; tracking starts with the next image"),
+                response);
 }
 
 /// Why the pose cannot be used: no object, or a frame that tf does not know. Gives tf a moment, by wall clock:
@@ -128,19 +149,19 @@ std::string TrackerServices::findObstacle(const InitialPose& pose) const {
   return problem;
 }
 
-InitialisationOutcome TrackerServices::initialiseAndWait(const InitialPose& pose, double timeout_s) {
+InitialisationOutcome TrackerServices::startAndWait(const Start& start, double timeout_s, const std::string& accepted) {
   const auto promise = std::make_shared<std::promise<InitialisationOutcome>>();
   const bool waits = timeout_s > 0.0;
   InitialisationCallback callback;
   if (waits) callback = [promise](const InitialisationOutcome& outcome) { promise->set_value(outcome); };
   InitialisationOutcome outcome;
-  if (!worker_.post([pose, callback](TrackerSession& session) { session.initialise(pose, callback); })) {
+  if (!worker_.post([start, callback](TrackerSession& session) { start(session, callback); })) {
     outcome.message = kStopped;
     return outcome;
   }
   if (!waits) {
     outcome.success = true;
-    outcome.message = "initial pose accepted; tracking starts with the next image";
+    outcome.message = accepted;
     return outcome;
   }
   auto future = promise->get_future();
@@ -149,7 +170,7 @@ InitialisationOutcome TrackerServices::initialiseAndWait(const InitialPose& pose
     if (future.wait_for(kPollPeriod) == std::future_status::ready) return future.get();
   }
   outcome.message =
-      "not tracking within " + std::to_string(timeout_s) + " s; see ~status for the reason. The pose stays accepted";
+      "not tracking within " + std::to_string(timeout_s) + " s; see ~status for the reason. The tracker goes on trying";
   return outcome;
 }
 

@@ -55,6 +55,20 @@ void TrackerSession::initialise(const InitialPose& pose, InitialisationCallback 
   initial_pose_problem_.clear();
 }
 
+void TrackerSession::initialiseAnywhere(InitialisationCallback callback) {
+  correction_.reset();
+  abandon("superseded by a search of the whole image");
+  waiting_ = std::move(callback);
+  pending_pose_.reset();
+  given_pose_.reset();
+  initial_pose_problem_.clear();
+  if (object_.tracker) {
+    object_.tracker->initialiseAnywhere();
+  } else {
+    abandon("there is no object to track: " + object_.problem);
+  }
+}
+
 bool TrackerSession::needsPose() const {
   const bool has_none = last_result_.state == TrackerState::kUninitialized || last_result_.state == TrackerState::kLost;
   return has_none && !pending_pose_;

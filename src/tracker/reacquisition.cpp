@@ -37,11 +37,28 @@ const FoundPose& likeliestOfTheBest(const std::vector<FoundPose>& found, const S
   return *likeliest;
 }
 
+/// Of poses that fit about as well as the first, the one that explains most of the image: a mug whose handle is seen
+/// fits with the handle behind it, too, but then the handle is left over.
+const FoundPose& mostExplaining(const std::vector<FoundPose>& found) {
+  constexpr double kAboutAsWell = 0.15;
+  const FoundPose* most = &found.front();
+  for (const FoundPose& one : found) {
+    if (one.quality < found.front().quality - kAboutAsWell) continue;
+    if (one.assessment.log_likelihood > most->assessment.log_likelihood) most = &one;
+  }
+  return *most;
+}
+
 /// Quality that a pose needs to be taken for the object.
-double neededQuality(const Pose& pose, const SearchRegion& region, bool was_there_before) {
+/// @param searches so far since the start: with nothing known, a wrong pose may be met before the right one.
+double neededQuality(const Pose& pose, const SearchRegion& region, bool was_there_before, int searches) {
+  constexpr double kMoreAtFirst = 0.25;
+  constexpr int kPatientSearches = 20;
   constexpr double kNear = 0.4, kFar = 0.62, kFarSquared = 12.0, kSecondLook = 0.06;
   const double share = region.is_known ? std::min(1.0, squaredDistance(pose, region) / kFarSquared) : 1.0;
-  return kNear + (kFar - kNear) * share + (was_there_before ? -kSecondLook : kSecondLook);
+  const double patience =
+      region.is_known ? 0.0 : kMoreAtFirst * std::max(0.0, 1.0 - static_cast<double>(searches) / kPatientSearches);
+  return patience + kNear + (kFar - kNear) * share + (was_there_before ? -kSecondLook : kSecondLook);
 }
 
 double fitOfWhatIsSeen(const PoseAssessment& assessment) {
@@ -71,26 +88,36 @@ std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const Pin
   if (region.is_known && region.everywhere) add(finder_->searchEverywhere(kEverywhere));
 
   const auto margin = [&](const FoundPose& one) {
-    return one.quality - neededQuality(one.T_camera_centre, region, wasThereBefore(one.T_camera_centre));
+    return one.quality - neededQuality(one.T_camera_centre, region, wasThereBefore(one.T_camera_centre), searches_);
   };
   std::stable_sort(found_.begin(), found_.end(),
                    [&](const FoundPose& a, const FoundPose& b) { return margin(a) > margin(b); });
+  ++searches_;
   const bool is_sure = !found_.empty() && margin(found_.front()) > 0.0;
   survivors_.clear();
   for (const FoundPose& one : found_) {
     if (survivors_.size() < kSurvivors) survivors_.push_back(one.T_camera_centre);
   }
   if (!is_sure) return std::nullopt;
-  if (!region.is_known) return found_.front().T_camera_centre;
+  if (!region.is_known) return mostExplaining(found_).T_camera_centre;
   return finder_->settle(likeliestOfTheBest(found_, region), region.T_camera_centre, region.variances).T_camera_centre;
 }
 
 std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const PinholeCamera& camera,
-                                              const Pose& T_camera_centre, const Vector6d& variances) {
+                                              const Pose& T_camera_centre, const Vector6d& variances,
+                                              bool by_likelihood) {
   constexpr double kSurer = 0.08, kElsewhereM = 0.01, kElsewhereRad = 0.2;
   finder_->setImage(depth, camera, std::max(0.2, T_camera_centre.translation().z()));
   found_ = finder_->searchAround({T_camera_centre}, variances, kAround);
   const FoundPose now = finder_->judge(T_camera_centre);
+  constexpr double kExplainsMore = 1.05;
+  if (!found_.empty() && by_likelihood) {
+    const FoundPose& most = mostExplaining(found_);
+    const bool is_better = most.quality > now.quality - kSurer &&
+                           most.assessment.log_likelihood > kExplainsMore * now.assessment.log_likelihood;
+    if (is_better) return most.T_camera_centre;
+    return std::nullopt;
+  }
   // How much is hidden does not matter here: a mug whose handle is behind it hides less than one with it in the hand.
   if (found_.empty() || fitOfWhatIsSeen(found_.front().assessment) < fitOfWhatIsSeen(now.assessment) + kSurer) {
     return std::nullopt;

@@ -103,6 +103,38 @@ TEST_F(Services, InitializeWaitsUntilTracking) {
   EXPECT_EQ(response.pose.header.frame_id, "camera_depth_optical_frame");
 }
 
+TEST_F(Services, InitializeFindsTheObjectInTheWholeImage) {
+  EXPECT_TRUE(callService<std_srvs::Trigger>("reset").success);
+  InitializeTracker::Request request;
+  request.mode = InitializeTracker::Request::GLOBAL;
+  request.timeout_s = 600.0;
+  std::atomic<bool> answered{false};
+  InitializeTracker::Response response;
+  std::thread caller([&] {
+    response = callService<InitializeTracker>("initialize", request);
+    answered = true;
+  });
+  const bool came = waitUntil([&] {
+    tracker().step();
+    return answered.load();
+  });
+  if (!came) callService<std_srvs::Trigger>("reset");  // ends the waiting
+  caller.join();
+  EXPECT_TRUE(response.success) << response.message;
+  EXPECT_NEAR(response.pose.pose.pose.position.z, testPose().translation().z(), 0.01);
+  EXPECT_TRUE(tracker().initialise());
+  tracker().expectTracking();
+}
+
+TEST_F(Services, InitializeInHandNeedsTheHand) {
+  InitializeTracker::Request request = requestAt(testPose(), "", 0.0);
+  request.mode = InitializeTracker::Request::IN_HAND;
+  const InitializeTracker::Response response = callService<InitializeTracker>("initialize", request);
+  EXPECT_FALSE(response.success);
+  EXPECT_NE(response.message.find("link"), std::string::npos) << response.message;
+  tracker().expectTracking();
+}
+
 TEST_F(Services, InitializeTimesOutWithoutImagesAndOthersAreAnsweredMeanwhile) {
   std::atomic<bool> answered{false};
   InitializeTracker::Response response;

@@ -109,6 +109,7 @@ class StatusMonitorTest : public testing::Test {
   static PoseAssessment seenThrough() {
     PoseAssessment assessment = fitting();
     assessment.visible_pixels = 20.0;
+    assessment.through_pixels = 900;
     assessment.log_likelihood = -4000.0;
     assessment.achieved = -3500.0;
     assessment.expected = 3000.0;

@@ -38,6 +38,8 @@ class TrackerServices {
   ~TrackerServices();
 
  private:
+  using Start = std::function<void(TrackerSession& session, InitialisationCallback callback)>;
+
   bool initialize(InitializeTracker::Request& request, InitializeTracker::Response& response);
   bool loadObject(LoadObject::Request& request, LoadObject::Response& response);
   bool setGrasp(SetGrasp::Request& request, SetGrasp::Response& response);
@@ -46,7 +48,8 @@ class TrackerServices {
 
   bool initializeAtMarker(std_srvs::Trigger::Response& response);
   std::string findObstacle(const InitialPose& pose) const;
-  InitialisationOutcome initialiseAndWait(const InitialPose& pose, double timeout_s);
+  /// Starts the tracker as `start` does and waits for TRACKING. @param timeout_s 0 = answers at once, with `accepted`.
+  InitialisationOutcome startAndWait(const Start& start, double timeout_s, const std::string& accepted);
   ObjectSource sourceFor(const LoadObject::Request& request) const;
 
   ros::NodeHandle node_;

@@ -64,6 +64,9 @@ class TrackerSession {
   /// be empty.
   void initialise(const InitialPose& pose, InitialisationCallback callback);
 
+  /// Starts anew with nothing but the images, from the next one on. @param callback as above.
+  void initialiseAnywhere(InitialisationCallback callback);
+
   /// True while UNINITIALIZED or LOST with no initial pose under way: a detector's pose is then welcome.
   bool needsPose() const;
 

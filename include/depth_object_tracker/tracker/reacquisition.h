@@ -23,15 +23,19 @@ class Reacquisition {
   explicit Reacquisition(std::unique_ptr<PoseFinder> finder) : finder_(std::move(finder)) {}
 
   /// Forgets what was seen in earlier images.
-  void restart() { survivors_.clear(); }
+  void restart() {
+    survivors_.clear();
+    searches_ = 0;
+  }
 
   /// One image. @return the pose of the object's centre once it is sure: the farther from the expected place, the
   /// surer it must be.
   std::optional<Pose> search(const DepthImageView& depth, const PinholeCamera& camera, const SearchRegion& region);
 
-  /// Looks around an estimate that may be in the wrong place. @return a pose where the object is more surely seen.
+  /// Looks around an estimate that may be in the wrong place. @param by_likelihood nothing was known of the pose: what
+  /// explains more of the image is better. @return a pose where the object is more surely seen.
   std::optional<Pose> findBetter(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre,
-                                 const Vector6d& variances);
+                                 const Vector6d& variances, bool by_likelihood);
 
   /// What the last search found, surest first.
   const std::vector<FoundPose>& found() const { return found_; }
@@ -42,6 +46,7 @@ class Reacquisition {
   std::unique_ptr<PoseFinder> finder_;
   std::vector<Pose> survivors_;  // best poses of the image before
   std::vector<FoundPose> found_;
+  int searches_ = 0;  // since restart()
 };
 
 }  // namespace depth_object_tracker
