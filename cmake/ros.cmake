@@ -8,8 +8,8 @@ add_library(depth_object_tracker_ros SHARED
   src/ros/camera_info_matcher.cpp
   src/ros/drop_watch.cpp
   src/ros/frame_inbox.cpp
-  src/ros/hand_messages.cpp
   src/ros/frame_lookup.cpp
+  src/ros/hand_messages.cpp
   src/ros/held_motion.cpp
   src/ros/image_conversions.cpp
   src/ros/initial_pose_marker.cpp
@@ -25,17 +25,16 @@ add_library(depth_object_tracker_ros SHARED
   src/ros/pose_validation.cpp
   src/ros/rate_meter.cpp
   src/ros/result_publisher.cpp
-  src/ros/self_check.cpp
   src/ros/robot_connection.cpp
   src/ros/robot_options.cpp
+  src/ros/self_check.cpp
   src/ros/status_builder.cpp
   src/ros/status_reason.cpp
   src/ros/tracker_diagnostics.cpp
   src/ros/tracker_nodelet.cpp
   src/ros/tracker_services.cpp
   src/ros/tracker_session.cpp
-  src/ros/tracker_worker.cpp
-)
+  src/ros/tracker_worker.cpp)
 target_include_directories(depth_object_tracker_ros PUBLIC include)
 #catkin_lint: ignore_once external_interface_path external_include_path
 # SYSTEM: warnings in the headers of other packages are not ours to mend.

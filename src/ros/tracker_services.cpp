@@ -88,7 +88,7 @@ bool TrackerServices::initialize(InitializeTracker::Request& request, Initialize
   if (request.mode != Mode::FROM_POSE && request.mode != Mode::GLOBAL && request.mode != Mode::IN_HAND) {
     response.message = "mode " + std::to_string(request.mode) + " is not available; use FROM_POSE (" +
                        std::to_string(Mode::FROM_POSE) + "), IN_HAND (" + std::to_string(Mode::IN_HAND) +
-                       ") or GLOBAL (" + std::to_string(Mode::GLOBAL) + "), which also finds an object on a table";
+                       ") or GLOBAL (" + std::to_string(Mode::GLOBAL) + ")";
     return true;
   }
   if (!std::isfinite(request.timeout_s) || request.timeout_s < 0.0 || request.timeout_s > kMaxTimeoutS) {
