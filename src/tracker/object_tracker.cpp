@@ -36,7 +36,7 @@ Vector6d foundVariances() {
   return variances;
 }
 
-/// A pose that was found with nothing known may be turned any way.
+/// A pose that was only just found may be turned any way.
 Vector6d anyTurnVariances() {
   Vector6d variances;
   variances.head<3>().setConstant(0.02 * 0.02);
@@ -123,11 +123,10 @@ class ObjectTracker::Implementation {
   PoseSearch search;
   Reacquisition reacquisition;
   Pose last_seen_centre = Pose::Identity();
-  double unseen_s = 0.0;            // since the object was last seen well
-  PoseStatistics last_mean;         // of the centre
-  bool came_from_anywhere = false;  // nothing was known of the pose when it was found
-  bool is_anywhere = false;         // nothing is known of the pose yet
-  bool is_blind = false;  // nothing of the object was seen in the last image, or not where it was thought to be
+  double unseen_s = 0.0;     // since the object was last seen well
+  PoseStatistics last_mean;  // of the centre
+  bool is_anywhere = false;  // nothing is known of the pose yet
+  bool is_blind = false;     // nothing of the object was seen in the last image, or not where it was thought to be
   double reacquired_s = kLongAgoS;         // since the object was found again
   bool fit_is_poor = false;                // look around in the next frame
   std::optional<ProcessStep> step_in_use;  // of the last image that was looked at
@@ -321,15 +320,15 @@ bool ObjectTracker::Implementation::isDoubtful() const {
 }
 
 bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth, const Pose& T_camera_centre) {
-  const std::optional<Pose> better = reacquisition.findBetter(
-      depth, camera_in_use, T_camera_centre, came_from_anywhere ? anyTurnVariances() : searchVariances(kDoubtfulReachS),
-      came_from_anywhere);
+  const bool just_found = reacquired_s < kDoubtfulAfterFindS;
+  const std::optional<Pose> better =
+      reacquisition.findBetter(depth, camera_in_use, T_camera_centre,
+                               just_found ? anyTurnVariances() : searchVariances(kDoubtfulReachS), just_found);
   if (better) startAt(*better);
   return better.has_value();
 }
 
 void ObjectTracker::Implementation::startAt(const Pose& T_camera_centre) {
-  came_from_anywhere = is_anywhere || (came_from_anywhere && reacquired_s < kDoubtfulAfterFindS);
   is_anywhere = false;
   filter.initialise(T_camera_centre);
   likelihood.resetOcclusion();
@@ -436,7 +435,7 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
   self.last_seen_centre = T_camera_centre;
   self.unseen_s = 0.0;
   self.fit_is_poor = false;
-  self.is_blind = self.is_anywhere = self.came_from_anywhere = false;
+  self.is_blind = self.is_anywhere = false;
   self.reacquired_s = kLongAgoS;
   self.reacquisition.restart();
   self.follows_hand = false;

@@ -110,11 +110,11 @@ std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const
   finder_->setImage(depth, camera, std::max(0.2, T_camera_centre.translation().z()));
   found_ = finder_->searchAround({T_camera_centre}, variances, kAround);
   const FoundPose now = finder_->judge(T_camera_centre);
-  constexpr double kExplainsMore = 1.05;
+  constexpr double kExplainsMore = 1.1;
   if (!found_.empty() && by_likelihood) {
     const FoundPose& most = mostExplaining(found_);
-    const bool is_better = most.quality > now.quality - kSurer &&
-                           most.assessment.log_likelihood > kExplainsMore * now.assessment.log_likelihood;
+    const bool is_better =
+        most.quality > now.quality && most.assessment.log_likelihood > kExplainsMore * now.assessment.log_likelihood;
     if (is_better) return most.T_camera_centre;
     return std::nullopt;
   }

@@ -32,7 +32,7 @@ class Reacquisition {
   /// surer it must be.
   std::optional<Pose> search(const DepthImageView& depth, const PinholeCamera& camera, const SearchRegion& region);
 
-  /// Looks around an estimate that may be in the wrong place. @param by_likelihood nothing was known of the pose: what
+  /// Looks around an estimate that may be in the wrong place. @param by_likelihood the object was only just found: what
   /// explains more of the image is better. @return a pose where the object is more surely seen.
   std::optional<Pose> findBetter(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre,
                                  const Vector6d& variances, bool by_likelihood);
