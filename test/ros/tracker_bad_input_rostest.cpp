@@ -222,11 +222,11 @@ TEST_F(BadInput, MissingMeshFile) {
 
 TEST_F(BadInput, ModesAndTimeoutsThatDoNotExist) {
   InitializeTracker call;
-  call.request.mode = InitializeTracker::Request::GLOBAL;
+  call.request.mode = InitializeTracker::Request::ON_TABLE;
   call.request.pose = goodPose();
   ASSERT_TRUE(ros::service::call(std::string(kName) + "/initialize", call));
   EXPECT_FALSE(call.response.success);
-  EXPECT_NE(call.response.message.find("not available yet"), std::string::npos) << call.response.message;
+  EXPECT_NE(call.response.message.find("not available"), std::string::npos) << call.response.message;
   call.request.mode = InitializeTracker::Request::FROM_POSE;
   call.request.timeout_s = std::numeric_limits<double>::quiet_NaN();
   ASSERT_TRUE(ros::service::call(std::string(kName) + "/initialize", call));

@@ -2,6 +2,8 @@
 // What a running tracker publishes: contents, stamps, zero copy, and nothing costly that nobody asked for.
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "rostest_main.h"
 #include "tracker_harness.h"
 
@@ -75,18 +77,17 @@ TEST_F(Outputs, PlainPublishersAreReadInPlaceToo) {
   Recorder<std_msgs::UInt64> addresses(node_, kName + "/debug/last_image_address");
   ros::Publisher publisher = node_.advertise<sensor_msgs::Image>("/camera/depth/image_raw", 1);
   ASSERT_TRUE(waitUntil([&] { return publisher.getNumSubscribers() > 0; }));
-  const auto image = tracker().goodImage();
-  tracker().setStamp(tracker().stamp() + ros::Duration(1.0 / 30.0));
-  image->header.stamp = tracker().stamp();
-  publisher.publish(sensor_msgs::ImageConstPtr(image));
-  tracker().setStamp(tracker().stamp() + ros::Duration(1.0 / 30.0));
-  const auto next =
-      tracker().goodImage();  // without camera_info of its own the first goes out with the second's arrival
-  next->header.stamp = tracker().stamp();
-  publisher.publish(sensor_msgs::ImageConstPtr(next));
+  // Without camera_info of its own an image goes out with the next one's arrival, and one may be overtaken on its way.
+  std::vector<sensor_msgs::ImagePtr> sent;
   EXPECT_TRUE(waitUntil([&] {
+    tracker().setStamp(tracker().stamp() + ros::Duration(1.0 / 30.0));
+    sent.push_back(tracker().goodImage());
+    sent.back()->header.stamp = tracker().stamp();
+    publisher.publish(sensor_msgs::ImageConstPtr(sent.back()));
     for (const auto& address : addresses.messages()) {
-      if (address->data == reinterpret_cast<std::uintptr_t>(next->data.data())) return true;
+      for (const auto& image : sent) {
+        if (address->data == reinterpret_cast<std::uintptr_t>(image->data.data())) return true;
+      }
     }
     return false;
   }));
