@@ -4,6 +4,7 @@ add_library(depth_object_tracker_core SHARED
   src/filter/gaussian6.cpp
   src/filter/informed_proposal.cpp
   src/filter/likelihood_climb.cpp
+  src/filter/mixture_moments.cpp
   src/filter/mode_search.cpp
   src/filter/occlusion_tiles.cpp
   src/filter/particle_filter.cpp

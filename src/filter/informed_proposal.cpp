@@ -58,6 +58,7 @@ InformedProposal::ForParticle::ForParticle(const InformedProposal& proposal, con
   }
   double sum = 0.0;
   for (std::size_t c = 0; c < proposal_.num_components_; ++c) sum += std::exp(log_shares_[c] - largest);
+  log_evidence_ = largest + std::log(sum);
   const double floor = kMinShare, rest = 1.0 - kMinShare * static_cast<double>(proposal_.num_components_);
   for (std::size_t c = 0; c < proposal_.num_components_; ++c) {
     log_shares_[c] = std::log(floor + rest * std::exp(log_shares_[c] - largest) / sum);
@@ -89,6 +90,19 @@ double InformedProposal::ForParticle::logDensity(const Pose& pose) const {
     log_density = logSum(log_density, log_shares_[c] + component.shape.logDensity(displacement - means_[c]) - volume);
   }
   return log_density;
+}
+
+void InformedProposal::ForParticle::addTo(MixtureMoments& moments, double particle_weight) const {
+  if (!(particle_weight > 0.0)) return;
+  const double log_weight = std::log(particle_weight) + log_evidence_;
+  for (std::size_t c = 0; c < proposal_.num_components_; ++c) {
+    const Component& component = proposal_.components_[c];
+    const Vector6d mean =
+        component.mode == 0
+            ? means_[c]
+            : difference(perturb(proposal_.modes_[component.mode].pose, means_[c]), proposal_.modes_[0].pose);
+    moments.add(log_weight + log_shares_[c], mean, component.covariance);
+  }
 }
 
 }  // namespace depth_object_tracker

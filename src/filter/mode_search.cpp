@@ -61,7 +61,8 @@ std::vector<LocalMode> ModeSearch::run(const PredictedPose& predicted, const std
     const bool known = std::any_of(modes.begin(), modes.end(), [&](const LocalMode& other) {
       return surfaceMotion(difference(mode.pose, other.pose), object_radius_m_) < kSameModeM;
     });
-    if (known || isOutOfReach(mode, predicted)) continue;
+    const bool is_in_view = std::isfinite(mode.log_likelihood);  // a climb may end outside of the region of interest
+    if (known || !is_in_view || isOutOfReach(mode, predicted)) continue;
     modes.push_back(exploreFreeDirections(predicted, mode));
   }
   return modes;

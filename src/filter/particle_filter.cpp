@@ -107,6 +107,10 @@ void ParticleFilter::summarise(FilterEstimate& estimate, const ProcessStep& step
   foldSymmetries();
   estimate.pose = poseStatistics(poses_, weights_, last_mean_);
   estimate.effective_sample_size = effectiveSampleSize(weights_);
+  if (expected_) {
+    expected_->mean = foldOntoReference(expected_->mean, estimate.pose.mean, symmetries_);
+    estimate.pose.covariance = completedCovariance(estimate.pose, estimate.effective_sample_size, *expected_);
+  }
   updateVelocities(step);
   estimateVelocity(estimate);
   last_mean_ = estimate.pose.mean;
@@ -190,14 +194,17 @@ void ParticleFilter::drawFromProcess(const ProcessStep& step) {
     log_proposal_ratio_[i] = 0.0;
   }
   data_share_.setIdentity();
+  expected_.reset();
 }
 
 void ParticleFilter::drawInformed(const ProcessStep& step, const std::vector<LocalMode>& modes) {
   const InformedProposal proposal(step, modes);
   if (proposal.empty()) return drawFromProcess(step);
   const double prior_share = config_.prior_share;
+  MixtureMoments moments;
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     const InformedProposal::ForParticle informed(proposal, predicted_[i]);
+    informed.addTo(moments, weights_[i]);
     const double choice = choiceDraw(i);
     poses_[i] = choice < prior_share ? drawPrior(step, i)
                                      : informed.sample((choice - prior_share) / (1.0 - prior_share), normalDraw(i));
@@ -208,6 +215,7 @@ void ParticleFilter::drawInformed(const ProcessStep& step, const std::vector<Loc
     log_proposal_ratio_[i] = -std::log(prior_share + (1.0 - prior_share) * std::exp(log_informed - log_prior));
   }
   data_share_ = proposal.dataShare();
+  expected_ = PoseStatistics{perturb(modes.front().pose, moments.mean()), moments.covariance()};
 }
 
 void ParticleFilter::foldSymmetries() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "depth_object_tracker/filter/gaussian6.h"
+#include "depth_object_tracker/filter/mixture_moments.h"
 #include "depth_object_tracker/filter/mode_search.h"
 
 #include <array>
@@ -31,9 +32,12 @@ class InformedProposal {
     Pose sample(double choice, const Vector6d& standard_normal) const;
     /// Log density [nat] with respect to translation times rotation volume (independent of the chart).
     double logDensity(const Pose& pose) const;
+    /// Adds the components, in the best mode's chart, each as likely as the particle and the local models make it.
+    void addTo(MixtureMoments& moments, double particle_weight) const;
 
    private:
     const InformedProposal& proposal_;
+    double log_evidence_ = 0.0;
     std::array<Vector6d, kMaxComponents> means_;
     std::array<double, kMaxComponents> log_shares_;
   };

@@ -10,6 +10,7 @@
 #include "depth_object_tracker/geometry/symmetry.h"
 #include "depth_object_tracker/model/process_model.h"
 
+#include <optional>
 #include <vector>
 
 namespace depth_object_tracker {
@@ -99,6 +100,7 @@ class ParticleFilter {
   std::vector<double> log_proposal_ratio_;  // log p(r | r_prev) - log q(r)
   std::vector<double> log_likelihoods_;
   std::vector<double> log_weights_;
+  std::optional<PoseStatistics> expected_;  // posterior as the local models have it; none without them
   Matrix6d data_share_ = Matrix6d::Identity();
   Pose last_mean_ = Pose::Identity();
 };
