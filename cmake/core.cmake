@@ -11,6 +11,7 @@ add_library(depth_object_tracker_core SHARED
   src/filter/pose_statistics.cpp
   src/filter/random.cpp
   src/filter/resampling.cpp
+  src/filter/score_scatter.cpp
   src/filter/tile_fit.cpp
   src/filter/tile_likelihood.cpp
   src/filter/worker_pool.cpp

@@ -69,6 +69,16 @@ void assessSurroundings(const MeasuredPixel& pixel, float surface_depth, PoseAss
   if (std::abs(pixel.depth - surface_depth) * pixel.inverse_stddev < kSameSurfaceStddevs) ++sum.continued_pixels;
 }
 
+Linearisation unpacked(const LinearisationSums& sums) {
+  Linearisation result;
+  std::size_t entry = 6;
+  for (int i = 0; i < 6; ++i) {
+    result.gradient[i] = sums[static_cast<std::size_t>(i)];
+    for (int j = 0; j <= i; ++j) result.information(i, j) = result.information(j, i) = sums[entry++];
+  }
+  return result;
+}
+
 }  // namespace
 
 ObjectShape::ObjectShape(const TriangleMesh& mesh, const Eigen::Vector3d& centre, bool level_of_detail)
@@ -214,17 +224,26 @@ double DepthLikelihood::broadLogLikelihood(const Pose& T_camera_centre, double e
 }
 
 Linearisation DepthLikelihood::linearise(const Pose& T_camera_centre, double extra_stddev_m, int thread) {
-  Linearisation result;
+  if (!isPrepared(T_camera_centre)) return Linearisation();
+  const DepthTile& tile = render(T_camera_centre, true, thread);
+  return unpacked(lineariseTile(tile, input(), meanBeliefs(tile, thread), static_cast<float>(extra_stddev_m),
+                                geometryOf(T_camera_centre, tile)));
+}
+
+TileGeometry DepthLikelihood::geometryOf(const Pose& T_camera_centre, const DepthTile& tile) const {
+  return makeTileGeometry(T_camera_centre.linear(), T_camera_centre.translation(), image_.grid().camera, object_->faces,
+                          outline_, tile);
+}
+
+ScoreScatter DepthLikelihood::scatterOfScores(const Pose& T_camera_centre, int thread) {
+  ScoreScatter result;
   if (!isPrepared(T_camera_centre)) return result;
   const DepthTile& tile = render(T_camera_centre, true, thread);
-  const TileGeometry geometry = makeTileGeometry(T_camera_centre.linear(), T_camera_centre.translation(),
-                                                 image_.grid().camera, object_->faces, outline_, tile);
-  const LinearisationSums sums =
-      lineariseTile(tile, input(), meanBeliefs(tile, thread), static_cast<float>(extra_stddev_m), geometry);
-  std::size_t entry = 6;
-  for (int i = 0; i < 6; ++i) {
-    result.gradient[i] = sums[static_cast<std::size_t>(i)];
-    for (int j = 0; j <= i; ++j) result.information(i, j) = result.information(j, i) = sums[entry++];
+  const TileGeometry geometry = geometryOf(T_camera_centre, tile);
+  const float* const* beliefs = meanBeliefs(tile, thread);
+  for (int block = 0; block < tile.tile_rows * tile.tile_cols; ++block) {
+    if (tile.touched[static_cast<std::size_t>(block)] == 0) continue;
+    result.add(unpacked(lineariseTile(tile, input(), beliefs, 0.0f, geometry, block)));
   }
   return result;
 }

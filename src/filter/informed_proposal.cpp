@@ -97,10 +97,9 @@ void InformedProposal::ForParticle::addTo(MixtureMoments& moments, double partic
   const double log_weight = std::log(particle_weight) + log_evidence_;
   for (std::size_t c = 0; c < proposal_.num_components_; ++c) {
     const Component& component = proposal_.components_[c];
-    const Vector6d mean =
-        component.mode == 0
-            ? means_[c]
-            : difference(perturb(proposal_.modes_[component.mode].pose, means_[c]), proposal_.modes_[0].pose);
+    const Vector6d mean = component.mode == 0 ? means_[c]
+                                              : difference(perturb(proposal_.modes_[component.mode].pose, means_[c]),
+                                                           proposal_.modes_[0].pose);
     moments.add(log_weight + log_shares_[c], mean, component.covariance);
   }
 }

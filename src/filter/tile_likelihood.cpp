@@ -206,9 +206,10 @@ double updateTileBeliefsScalar(const DepthTile& tile, const TileLikelihoodInput&
 
 LinearisationSums lineariseTileScalar(const DepthTile& tile, const TileLikelihoodInput& input,
                                       const float* const* tile_beliefs, float extra_stddev_m,
-                                      const TileGeometry& geometry) {
+                                      const TileGeometry& geometry, int block) {
   LaneSumsOfEntries sums{};
   forEachTouchedTile(tile, [&](int first_row, int rows, int first_col, int index) {
+    if (block != kAllBlocks && block != index) return;
     for (int row = first_row; row < first_row + rows; ++row) {
       for (int column = 0; column < kTileSize; ++column) {
         const int col = first_col + column;
@@ -274,11 +275,12 @@ double updateTileBeliefs(const DepthTile& tile, const TileLikelihoodInput& input
 }
 
 LinearisationSums lineariseTile(const DepthTile& tile, const TileLikelihoodInput& input,
-                                const float* const* tile_beliefs, float extra_stddev_m, const TileGeometry& geometry) {
+                                const float* const* tile_beliefs, float extra_stddev_m, const TileGeometry& geometry,
+                                int block) {
 #ifdef DEPTH_OBJECT_TRACKER_HAVE_HIGHWAY
-  if (!simdIsScalar()) return lineariseTileSimd(tile, input, tile_beliefs, extra_stddev_m, geometry);
+  if (!simdIsScalar()) return lineariseTileSimd(tile, input, tile_beliefs, extra_stddev_m, geometry, block);
 #endif
-  return lineariseTileScalar(tile, input, tile_beliefs, extra_stddev_m, geometry);
+  return lineariseTileScalar(tile, input, tile_beliefs, extra_stddev_m, geometry, block);
 }
 
 }  // namespace depth_object_tracker

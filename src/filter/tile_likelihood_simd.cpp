@@ -387,12 +387,13 @@ void lineariseRow(const DepthTile& tile, const TileLikelihoodInput& input, int r
 
 template <bool kPaper, bool kWiden>
 LinearisationSums lineariseTiles(const DepthTile& tile, const TileLikelihoodInput& input, const float* const* beliefs,
-                                 float extra_stddev_m, const TileGeometry& geometry) {
+                                 float extra_stddev_m, const TileGeometry& geometry, int block) {
   EntrySums sums{};
   for (int tile_row = 0; tile_row < tile.tile_rows; ++tile_row) {
     for (int tile_col = 0; tile_col < tile.tile_cols; ++tile_col) {
       const int index = tile_row * tile.tile_cols + tile_col;
       if (tile.touched[static_cast<std::size_t>(index)] == 0) continue;
+      if (block != kAllBlocks && block != index) continue;
       const int first_row = tile_row * kTileSize;
       for (int row = first_row; row < first_row + kTileSize; row += kRows) {
         const float* row_beliefs = beliefs[index] != nullptr ? beliefs[index] + (row - first_row) * kTileSize : nullptr;
@@ -407,14 +408,14 @@ LinearisationSums lineariseTiles(const DepthTile& tile, const TileLikelihoodInpu
 }
 
 LinearisationSums Linearise(const DepthTile& tile, const TileLikelihoodInput& input, const float* const* beliefs,
-                            float extra_stddev_m, const TileGeometry& geometry) {
+                            float extra_stddev_m, const TileGeometry& geometry, int block) {
   const bool wide = extra_stddev_m > 0.0f;
   if (input.model.paper_occluder) {
-    return wide ? lineariseTiles<true, true>(tile, input, beliefs, extra_stddev_m, geometry)
-                : lineariseTiles<true, false>(tile, input, beliefs, 0.0f, geometry);
+    return wide ? lineariseTiles<true, true>(tile, input, beliefs, extra_stddev_m, geometry, block)
+                : lineariseTiles<true, false>(tile, input, beliefs, 0.0f, geometry, block);
   }
-  return wide ? lineariseTiles<false, true>(tile, input, beliefs, extra_stddev_m, geometry)
-              : lineariseTiles<false, false>(tile, input, beliefs, 0.0f, geometry);
+  return wide ? lineariseTiles<false, true>(tile, input, beliefs, extra_stddev_m, geometry, block)
+              : lineariseTiles<false, false>(tile, input, beliefs, 0.0f, geometry, block);
 }
 
 }  // namespace depth_object_tracker::HWY_NAMESPACE
@@ -438,8 +439,8 @@ double updateTileBeliefsSimd(const DepthTile& tile, const TileLikelihoodInput& i
 
 LinearisationSums lineariseTileSimd(const DepthTile& tile, const TileLikelihoodInput& input,
                                     const float* const* tile_beliefs, float extra_stddev_m,
-                                    const TileGeometry& geometry) {
-  return HWY_DYNAMIC_DISPATCH(Linearise)(tile, input, tile_beliefs, extra_stddev_m, geometry);
+                                    const TileGeometry& geometry, int block) {
+  return HWY_DYNAMIC_DISPATCH(Linearise)(tile, input, tile_beliefs, extra_stddev_m, geometry, block);
 }
 
 }  // namespace depth_object_tracker

@@ -120,6 +120,7 @@ class ObjectTracker::Implementation {
   ResolutionChooser resolution;
   StatusMonitor status;
   SlipEstimator slip;
+  CovarianceCalibration calibration;
   PoseSearch search;
   Reacquisition reacquisition;
   Pose last_seen_centre = Pose::Identity();
@@ -144,6 +145,8 @@ class ObjectTracker::Implementation {
   FrameClock::Step advanceClock(double stamp_s);
   double projectedPixels(const PinholeCamera& camera) const;
   double diffusionScale() const;
+  /// The covariance as the image bears it out.
+  void calibrate(FilterEstimate& estimate, double dt_s);
   /// The process into this image, and poses to look at besides: at the start, while little is seen, after a loss.
   ProcessStep makeStep(double dt_s, const std::optional<ControlInput>& control, std::vector<Pose>& hypotheses);
   /// One frame of the filter.
@@ -198,6 +201,7 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
     estimate = look(time.dt_s, control);
     assessment = assess(estimate);
   }
+  calibrate(estimate, time.dt_s);
   full_resolution_pixels = assessment.covered_pixels * static_cast<double>(grid.factor * grid.factor);
   status.update(assessment, time.dt_s, is_blind);
   result.grasped = control && control->grasped;
@@ -378,6 +382,14 @@ void ObjectTracker::Implementation::rememberFit(const FilterEstimate& estimate, 
   is_blind = is_anywhere || (may_be_blind && (is_blind || nothing_seen || status.state() == TrackerState::kLost));
 }
 
+void ObjectTracker::Implementation::calibrate(FilterEstimate& estimate, double dt_s) {
+  if (is_blind || !mayReacquire() || !step_in_use) return;
+  const double exponent = likelihoodExponent(config.filter, likelihood.image().grid().factor);
+  estimate.pose.covariance =
+      calibration.calibrated(estimate.pose.covariance, likelihood.scatterOfScores(estimate.pose.mean, 0), exponent,
+                             step_in_use->component(0).variances, shape.radius_m, dt_s);
+}
+
 double ObjectTracker::Implementation::diffusionScale() const {
   const double seen = config.process.diffusion_full_above_visible_fraction;
   if (seen <= 0.0 || status.visibleFraction() >= seen) return 1.0;
@@ -437,6 +449,7 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
   self.fit_is_poor = false;
   self.is_blind = self.is_anywhere = false;
   self.reacquired_s = kLongAgoS;
+  self.calibration.restart();
   self.reacquisition.restart();
   self.follows_hand = false;
   self.slip.reset();

@@ -4,6 +4,7 @@
 
 #include "depth_object_tracker/filter/occlusion_tiles.h"
 #include "depth_object_tracker/filter/pose_likelihood.h"
+#include "depth_object_tracker/filter/score_scatter.h"
 #include "depth_object_tracker/filter/tile_fit.h"
 #include "depth_object_tracker/filter/tile_likelihood.h"
 #include "depth_object_tracker/filter/worker_pool.h"
@@ -68,6 +69,9 @@ class DepthLikelihood : public PoseLikelihood {
   double logLikelihood(const Pose& T_camera_centre, int thread) override;
   double broadLogLikelihood(const Pose& T_camera_centre, double extra_stddev_m, int thread) override;
   Linearisation linearise(const Pose& T_camera_centre, double extra_stddev_m, int thread) override;
+  /// How the parts of the image pull at a pose: all of zero outside of what is prepared. Thread-safe for different
+  /// `thread`.
+  ScoreScatter scatterOfScores(const Pose& T_camera_centre, int thread);
   void update(const std::vector<Pose>& T_camera_centre, std::vector<double>& log_likelihoods) override;
   void resample(const std::vector<int>& source) override;
   int numThreads() const override { return pool_->numThreads(); }
@@ -115,6 +119,7 @@ class DepthLikelihood : public PoseLikelihood {
   float* const* ownBeliefs(const DepthTile& tile, int particle, int thread);
   int tileIndex(const DepthTile& tile, int index) const;
   TileLikelihoodInput input() const;
+  TileGeometry geometryOf(const Pose& T_camera_centre, const DepthTile& tile) const;
   double updateParticle(int index, const Pose& T_camera_centre, int thread);
 
   ObjectShape shape_;

@@ -18,8 +18,8 @@ struct PoseStatistics {
 /// @param start a pose near the mean; fixes the chart of the first step.
 PoseStatistics poseStatistics(const std::vector<Pose>& poses, const std::vector<double>& weights, const Pose& start);
 
-/// Covariance of the error of a weighted mean of few samples: what they say by themselves is too small (a single one has
-/// none), so it is completed by what was expected of them.
+/// Covariance of the error of a weighted mean of few samples: what they say by themselves is too small (a single one
+/// has none), so it is completed by what was expected of them.
 /// @param effective_sample_size of the samples, >= 1.
 /// @param expected of the same quantity, as good as kExpectedCountsAs samples; its mean may differ.
 Matrix6d completedCovariance(const PoseStatistics& of_samples, double effective_sample_size,

@@ -58,15 +58,19 @@ TileGeometry makeTileGeometry(const Eigen::Matrix3d& rotation, const Eigen::Vect
 /// order: translation, rotation about the centre; camera axes.
 using LinearisationSums = std::array<double, 27>;
 
+constexpr int kAllBlocks = -1;
+
 /// Second-order model of tileLogLikelihood about the pose; needs faces, distance and soft outline in the tile.
+/// @param block index of the only block of 8x8 cells that counts, or kAllBlocks.
 LinearisationSums lineariseTile(const DepthTile& tile, const TileLikelihoodInput& input,
-                                const float* const* tile_beliefs, float extra_stddev_m, const TileGeometry& geometry);
+                                const float* const* tile_beliefs, float extra_stddev_m, const TileGeometry& geometry,
+                                int block = kAllBlocks);
 LinearisationSums lineariseTileScalar(const DepthTile& tile, const TileLikelihoodInput& input,
                                       const float* const* tile_beliefs, float extra_stddev_m,
-                                      const TileGeometry& geometry);
+                                      const TileGeometry& geometry, int block = kAllBlocks);
 LinearisationSums lineariseTileSimd(const DepthTile& tile, const TileLikelihoodInput& input,
                                     const float* const* tile_beliefs, float extra_stddev_m,
-                                    const TileGeometry& geometry);
+                                    const TileGeometry& geometry, int block = kAllBlocks);
 
 /// Constants that the scalar and the SIMD loops share.
 namespace tile_likelihood {
