@@ -45,6 +45,7 @@ add_library(depth_object_tracker_core SHARED
   src/tracker/frame_clock.cpp
   src/tracker/input_check.cpp
   src/tracker/live_parameters.cpp
+  src/tracker/look_alikes.cpp
   src/tracker/nearest_name.cpp
   src/tracker/object_model.cpp
   src/tracker/object_tracker.cpp

@@ -306,6 +306,14 @@ PoseAssessment DepthLikelihood::assess(const Pose& T_camera_centre, int thread, 
   return result;
 }
 
+bool DepthLikelihood::explains(const Pose& T_camera_centre) {
+  constexpr double kOfWhatIsExpected = 0.85, kLeastVisible = 0.2;
+  const PoseAssessment fit = assess(T_camera_centre, 0);
+  // An edge of what hides the object can pass for the little that is seen of it.
+  if (fit.visible_pixels < kLeastVisible * fit.measured_pixels) return true;
+  return fit.achieved > kOfWhatIsExpected * fit.expected;
+}
+
 void DepthLikelihood::occlusionMap(const std::vector<Pose>& T_camera_centre, const std::vector<double>& weights,
                                    std::vector<float>& map) {
   const PinholeCamera& camera = image_.grid().camera;

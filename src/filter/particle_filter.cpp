@@ -46,6 +46,11 @@ void ParticleFilter::shiftVelocities(const Vector6d& shift) {
   for (Vector6d& velocity : velocities_) velocity += shift;
 }
 
+void ParticleFilter::moveInObject(const Pose& T_before_now) {
+  for (Pose& pose : poses_) pose = pose * T_before_now;
+  last_mean_ = last_mean_ * T_before_now;
+}
+
 void ParticleFilter::moveCamera(const Pose& T_now_before) {
   for (Pose& pose : poses_) pose = T_now_before * pose;
   for (Vector6d& velocity : velocities_) velocity = rotated(velocity, T_now_before.linear());
@@ -53,7 +58,7 @@ void ParticleFilter::moveCamera(const Pose& T_now_before) {
 }
 
 FilterEstimate ParticleFilter::update(PoseLikelihood& likelihood, const ProcessStep& step, double likelihood_exponent,
-                                      const std::vector<Pose>& hypotheses) {
+                                      const Hypotheses& hypotheses) {
   FilterEstimate estimate;
   Stopwatch stopwatch;
   ++frame_;
@@ -143,7 +148,7 @@ void ParticleFilter::predict(const ProcessStep& step) {
 }
 
 std::vector<LocalMode> ParticleFilter::findModes(PoseLikelihood& likelihood, const ProcessStep& step, double exponent,
-                                                 const std::vector<Pose>& hypotheses) {
+                                                 const Hypotheses& hypotheses) {
   const PoseStatistics predicted = poseStatistics(predicted_, weights_, last_mean_);
   std::vector<ModeSearchStart> starts = {{predicted.mean, kNarrowWidthM}, {predicted.mean, kBroadWidthM}};
   if ((last_mean_.translation() - predicted.mean.translation()).norm() > 0.5 * kBroadWidthM) {
@@ -153,7 +158,7 @@ std::vector<LocalMode> ParticleFilter::findModes(PoseLikelihood& likelihood, con
   // The region of interest: all predictions and starts, and as far as a sudden motion reaches.
   std::vector<Pose> region = predicted_;
   for (const ModeSearchStart& start : starts) region.push_back(start.pose);
-  region.insert(region.end(), hypotheses.begin(), hypotheses.end());
+  region.insert(region.end(), hypotheses.always.begin(), hypotheses.always.end());
   const double reach = 2.0 * std::sqrt(step.widestComponent().variances.head<3>().maxCoeff());
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-reach, reach}) {
@@ -164,7 +169,14 @@ std::vector<LocalMode> ParticleFilter::findModes(PoseLikelihood& likelihood, con
   likelihood.prepare(region);
 
   ModeSearch search(likelihood, step, exponent, object_radius_m_);
-  return search.run({predicted.mean, predicted.covariance}, starts, hypotheses, kMaxModes);
+  const PredictedPose expected = {predicted.mean, predicted.covariance};
+  std::vector<LocalMode> modes = search.run(expected, starts, hypotheses.always, kMaxModes);
+  const bool is_poor = modes.empty() || !likelihood.explains(modes.front().pose);
+  if (!is_poor || hypotheses.if_poor.empty()) return modes;
+  region.insert(region.end(), hypotheses.if_poor.begin(), hypotheses.if_poor.end());
+  likelihood.prepare(region);
+  for (const LocalMode& mode : modes) starts.push_back({mode.pose, kNarrowWidthM});
+  return search.run(expected, starts, hypotheses.if_poor, kMaxModes);
 }
 
 Vector6d ParticleFilter::normalDraw(std::size_t particle) const {

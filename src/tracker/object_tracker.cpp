@@ -8,6 +8,7 @@
 #include "depth_object_tracker/render/depth_renderer.h"
 #include "depth_object_tracker/tracker/frame_clock.h"
 #include "depth_object_tracker/tracker/live_parameters.h"
+#include "depth_object_tracker/tracker/look_alikes.h"
 #include "depth_object_tracker/tracker/pose_search.h"
 #include "depth_object_tracker/tracker/reacquisition.h"
 #include "depth_object_tracker/tracker/resolution.h"
@@ -26,8 +27,9 @@ constexpr double kFreeAngleVariance = M_PI * M_PI / 3.0;
 
 constexpr double kSearchEverywhereAfterS = 3.0;
 constexpr double kUsualDistanceM = 0.8;
+constexpr double kSettledAfterS = 3.0;
 constexpr double kDoubtfulAfterFindS = 0.7, kLongAgoS = 1e6;
-constexpr double kDoubtfulReachS = 1.5;  // as far as after this long unseen
+constexpr double kDoubtfulReachS = 1.5;  // as far as after this long unseen, at most
 
 Vector6d foundVariances() {
   Vector6d variances;
@@ -96,6 +98,7 @@ class ObjectTracker::Implementation {
         status(config.status),
         slip(config.slip),
         search(config.filter.seed),
+        look_alikes(findLookAlikes(object.mesh, centre_object, aboutCentre(object.symmetries, centre_object))),
         reacquisition(
             std::make_unique<PoseFinder>(shape, object.mesh, diameter_m, config.pixel, config.filter.seed, pool)) {}
 
@@ -122,14 +125,17 @@ class ObjectTracker::Implementation {
   SlipEstimator slip;
   CovarianceCalibration calibration;
   PoseSearch search;
+  LookAlikeCheck look_alikes;
   Reacquisition reacquisition;
   Pose last_seen_centre = Pose::Identity();
-  double unseen_s = 0.0;     // since the object was last seen well
-  PoseStatistics last_mean;  // of the centre
-  bool is_anywhere = false;  // nothing is known of the pose yet
-  bool is_blind = false;     // nothing of the object was seen in the last image, or not where it was thought to be
+  double unseen_s = 0.0;       // since the object was last seen well
+  PoseStatistics last_mean;    // of the centre
+  bool is_anywhere = false;    // nothing is known of the pose yet
+  bool is_blind = false;       // nothing of the object was seen in the last image, or not where it was thought to be
+  double moved_s = kLongAgoS;  // since the filter was started anew, at a pose that was searched
   double reacquired_s = kLongAgoS;         // since the object was found again
   bool fit_is_poor = false;                // look around in the next frame
+  double poor_s = 0.0;                     // since it last was good
   std::optional<ProcessStep> step_in_use;  // of the last image that was looked at
   bool follows_hand = false;
   Vector6d hand_velocity = Vector6d::Zero();  // of the centre as the robot has it; zero when it is not followed
@@ -148,7 +154,7 @@ class ObjectTracker::Implementation {
   /// The covariance as the image bears it out.
   void calibrate(FilterEstimate& estimate, double dt_s);
   /// The process into this image, and poses to look at besides: at the start, while little is seen, after a loss.
-  ProcessStep makeStep(double dt_s, const std::optional<ControlInput>& control, std::vector<Pose>& hypotheses);
+  ProcessStep makeStep(double dt_s, const std::optional<ControlInput>& control, Hypotheses& hypotheses);
   /// One frame of the filter.
   FilterEstimate look(double dt_s, const std::optional<ControlInput>& control);
   /// One frame without a measurement.
@@ -163,6 +169,8 @@ class ObjectTracker::Implementation {
   bool isDoubtful() const;
   bool moveToBetterPose(const DepthImageView& depth, const Pose& T_camera_centre);
   void startAt(const Pose& T_camera_centre);
+  /// Moves to a pose that looks alike but explains the image better.
+  void turnToLookAlike(FilterEstimate& estimate, PoseAssessment& assessment);
   /// Particles' velocities are relative to the hand while it is followed: hand over at grasp and release.
   void followHand(const ProcessStep& step, bool follows, double dt_s);
   void estimateSlip(const FilterEstimate& estimate, double dt_s);
@@ -201,6 +209,7 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
     estimate = look(time.dt_s, control);
     assessment = assess(estimate);
   }
+  turnToLookAlike(estimate, assessment);
   calibrate(estimate, time.dt_s);
   full_resolution_pixels = assessment.covered_pixels * static_cast<double>(grid.factor * grid.factor);
   status.update(assessment, time.dt_s, is_blind);
@@ -215,7 +224,7 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
 }
 
 FilterEstimate ObjectTracker::Implementation::look(double dt_s, const std::optional<ControlInput>& control) {
-  std::vector<Pose> hypotheses;
+  Hypotheses hypotheses;
   const ProcessStep step = makeStep(dt_s, control, hypotheses);
   step_in_use = step;
   const double exponent = likelihoodExponent(config.filter, likelihood.image().grid().factor);
@@ -289,17 +298,17 @@ FrameClock::Step ObjectTracker::Implementation::advanceClock(double stamp_s) {
 }
 
 ProcessStep ObjectTracker::Implementation::makeStep(double dt_s, const std::optional<ControlInput>& control,
-                                                    std::vector<Pose>& hypotheses) {
+                                                    Hypotheses& hypotheses) {
   if (initial_variances) {
     const ProcessStep step(config.process, *initial_variances);
-    if (mayReacquire()) hypotheses = search.around(filter.poses().front(), *initial_variances, kHypotheses);
+    if (mayReacquire()) hypotheses.always = search.around(filter.poses().front(), *initial_variances, kHypotheses);
     initial_variances.reset();
     return step;
   }
   ProcessStep step(config.process, dt_s, control, centre_object, diffusionScale(), slip.noiseScale());
   followHand(step, control && control->isFollowed(), dt_s);
-  if (mayReacquire() && fit_is_poor) {
-    hypotheses = search.around(last_mean.mean, searchVariances(kPoorFitReachS), kHypotheses);
+  if (mayReacquire()) {
+    hypotheses.if_poor = search.around(last_mean.mean, searchVariances(kPoorFitReachS), kHypotheses);
   }
   return step;
 }
@@ -325,15 +334,28 @@ bool ObjectTracker::Implementation::isDoubtful() const {
 
 bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth, const Pose& T_camera_centre) {
   const bool just_found = reacquired_s < kDoubtfulAfterFindS;
-  const std::optional<Pose> better =
-      reacquisition.findBetter(depth, camera_in_use, T_camera_centre,
-                               just_found ? anyTurnVariances() : searchVariances(kDoubtfulReachS), just_found);
+  const std::optional<Pose> better = reacquisition.findBetter(
+      depth, camera_in_use, T_camera_centre,
+      just_found ? anyTurnVariances() : searchVariances(std::min(poor_s, kDoubtfulReachS)), just_found);
   if (better) startAt(*better);
   return better.has_value();
 }
 
+void ObjectTracker::Implementation::turnToLookAlike(FilterEstimate& estimate, PoseAssessment& assessment) {
+  if (!mayReacquire() || is_blind || initial_variances) return;
+  if (assessment.visible_pixels < kSeenAboveVisibleFraction * assessment.measured_pixels) return;
+  const double exponent = likelihoodExponent(config.filter, likelihood.image().grid().factor);
+  const std::optional<Pose> better =
+      look_alikes.findBetter(likelihood, estimate.pose.mean, exponent, moved_s > kSettledAfterS);
+  if (!better) return;
+  filter.moveInObject(estimate.pose.mean.inverse() * *better);
+  estimate.pose.mean = *better;
+  assessment = assess(estimate);
+}
+
 void ObjectTracker::Implementation::startAt(const Pose& T_camera_centre) {
   is_anywhere = false;
+  moved_s = 0.0;
   filter.initialise(T_camera_centre);
   likelihood.resetOcclusion();
   status.restart();
@@ -373,10 +395,12 @@ void ObjectTracker::Implementation::rememberFit(const FilterEstimate& estimate, 
                     status.visibleFraction() >= kSeenAboveVisibleFraction;
   unseen_s = seen ? 0.0 : unseen_s + dt_s;
   reacquired_s += dt_s;
+  moved_s += dt_s;
   if (seen) last_seen_centre = estimate.pose.mean;
   last_mean = estimate.pose;
   // What is seen fits worse than the sensor model expects: perhaps a neighbouring mode.
   fit_is_poor = seen && status.score() < kPoorScore;
+  poor_s = seen && !fit_is_poor ? 0.0 : poor_s + dt_s;
   const bool may_be_blind = mayReacquire() && status.state() != TrackerState::kInitializing;
   const bool nothing_seen = status.visibleFraction() < kBlindBelowVisibleFraction || status.misfit();
   is_blind = is_anywhere || (may_be_blind && (is_blind || nothing_seen || status.state() == TrackerState::kLost));
@@ -447,8 +471,9 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
   self.last_seen_centre = T_camera_centre;
   self.unseen_s = 0.0;
   self.fit_is_poor = false;
+  self.poor_s = 0.0;
   self.is_blind = self.is_anywhere = false;
-  self.reacquired_s = kLongAgoS;
+  self.reacquired_s = self.moved_s = kLongAgoS;
   self.calibration.restart();
   self.reacquisition.restart();
   self.follows_hand = false;

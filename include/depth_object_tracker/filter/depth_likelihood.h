@@ -74,6 +74,7 @@ class DepthLikelihood : public PoseLikelihood {
   ScoreScatter scatterOfScores(const Pose& T_camera_centre, int thread);
   void update(const std::vector<Pose>& T_camera_centre, std::vector<double>& log_likelihoods) override;
   void resample(const std::vector<int>& source) override;
+  bool explains(const Pose& T_camera_centre) override;
   int numThreads() const override { return pool_->numThreads(); }
   void parallelFor(int count, const WorkerPool::Task& task) override { pool_->run(count, task); }
 

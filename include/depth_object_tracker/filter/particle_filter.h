@@ -31,6 +31,12 @@ struct FilterEstimate {
   FilterTimes time;
 };
 
+/// Poses of the centre where the object may be besides where it is expected.
+struct Hypotheses {
+  std::vector<Pose> always;
+  std::vector<Pose> if_poor;  ///< only when the best mode found without them does not explain what is seen
+};
+
 /// Target: product over frames of L^gamma times the process model. Knows nothing of images.
 class ParticleFilter {
  public:
@@ -45,9 +51,10 @@ class ParticleFilter {
   void setNumParticles(int count) { wanted_particles_ = static_cast<std::size_t>(count); }
 
   /// One frame. @param likelihood_exponent gamma in (0, 1].
-  /// @param hypotheses further poses to look at (at the start, after a loss).
+  /// @param hypotheses further poses to look at: always (at the start, after a loss), or if what was found without
+  /// them fits poorly.
   FilterEstimate update(PoseLikelihood& likelihood, const ProcessStep& step, double likelihood_exponent,
-                        const std::vector<Pose>& hypotheses = {});
+                        const Hypotheses& hypotheses = {});
 
   /// One frame that says nothing of the pose: the particles move as the process has it, without weighing.
   FilterEstimate hold(PoseLikelihood& likelihood, const ProcessStep& step);
@@ -62,6 +69,9 @@ class ParticleFilter {
   /// Velocities become zero (after a time jump or a gap).
   void stopMotion();
 
+  /// Moves all particles in their own axes. @param T_before_now p_before = T p_now, in object axes about the centre.
+  void moveInObject(const Pose& T_before_now);
+
   /// Adds to all velocities [m/s, rad/s]: what they are relative to has changed.
   void shiftVelocities(const Vector6d& shift);
   /// Tells all that is remembered in the axes of a camera that has moved. @param T_now_before p_now = T p_before.
@@ -72,7 +82,7 @@ class ParticleFilter {
   void resampleIfNeeded(PoseLikelihood& likelihood);
   void predict(const ProcessStep& step);
   std::vector<LocalMode> findModes(PoseLikelihood& likelihood, const ProcessStep& step, double exponent,
-                                   const std::vector<Pose>& hypotheses);
+                                   const Hypotheses& hypotheses);
   void drawFromProcess(const ProcessStep& step);
   void drawInformed(const ProcessStep& step, const std::vector<LocalMode>& modes);
   void foldSymmetries();

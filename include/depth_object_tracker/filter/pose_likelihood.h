@@ -43,6 +43,9 @@ class PoseLikelihood {
   /// The particle in slot i continues from that in slot source[i]; slots with source[i] == i keep theirs.
   virtual void resample(const std::vector<int>& source) = 0;
 
+  /// False when what is seen there is not what the model expects of the object.
+  virtual bool explains(const Pose& /*T_camera_centre*/) { return true; }
+
   virtual int numThreads() const { return 1; }
 
   /// Calls task(index, thread) for every index in [0, count), each once, on numThreads() threads.

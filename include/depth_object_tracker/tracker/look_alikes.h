@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Turns after which an object looks almost the same: a mug about its axis but for the handle, a box end for end. What
+// is seen may not tell them apart for a while, and a tracker that took the wrong one must notice when it does.
+#pragma once
+
+#include "depth_object_tracker/filter/depth_likelihood.h"
+#include "depth_object_tracker/geometry/symmetry.h"
+#include "depth_object_tracker/tracker/oriented_points.h"
+
+#include <optional>
+#include <vector>
+
+namespace depth_object_tracker {
+
+/// @param symmetries about the centre: what looks exactly the same is no look-alike.
+/// @return T_centre_centre, the most similar first; none of them near the identity.
+std::vector<Pose> findLookAlikes(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object,
+                                 const Symmetries& symmetries);
+
+/// Compares an estimate with its look-alikes, a few in every image.
+class LookAlikeCheck {
+ public:
+  explicit LookAlikeCheck(std::vector<Pose> look_alikes) : look_alikes_(std::move(look_alikes)) {}
+
+  /// @param exponent gamma of the filter. @param was_followed T_camera_centre was followed from a pose that was right:
+  /// the farther a turn, the surer it must be (a finger makes a fine handle where the mug's own is hidden).
+  /// @return a pose of the centre that explains the image surely better.
+  std::optional<Pose> findBetter(DepthLikelihood& likelihood, const Pose& T_camera_centre, double exponent,
+                                 bool was_followed);
+
+  std::size_t count() const { return look_alikes_.size(); }
+
+ private:
+  std::vector<Pose> look_alikes_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace depth_object_tracker

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_object_tracker/tracker/look_alikes.h"
+
+#include "depth_object_tracker/filter/likelihood_climb.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace depth_object_tracker {
+namespace {
+
+constexpr std::size_t kRotations = 1500;  // looked at: some 20 degrees apart
+constexpr std::size_t kMaxLookAlikes = 32;
+constexpr std::size_t kSurfacePoints = 2000, kFewPoints = 60, kManyPoints = 250;
+constexpr double kReachPerDiameter = 0.08;      // to the nearest of the surface's points
+constexpr double kTolerancePerDiameter = 0.03;  // off the surface
+constexpr double kApartRad = 0.3;
+constexpr double kLeastOverlapAtFirst = 0.45, kLeastOverlap = 0.7;
+constexpr double kSameNormalCosine = 0.7;
+constexpr int kAlignments = 6;
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+double angle(const Eigen::Matrix3d& R) {
+  return std::acos(std::clamp(0.5 * (R.trace() - 1.0), -1.0, 1.0));
+}
+
+/// Points spread evenly over the surface.
+std::vector<OrientedPoint> surfacePoints(const TriangleMesh& mesh, const Eigen::Vector3d& centre) {
+  const auto corner = [&](const Triangle& triangle, int k) -> Eigen::Vector3d {
+    return mesh.vertices[static_cast<std::size_t>(triangle[static_cast<std::size_t>(k)])].cast<double>() - centre;
+  };
+  const auto doubleArea = [&](const Triangle& t) -> Eigen::Vector3d {
+    return (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0));
+  };
+  double area = 0.0;
+  for (const Triangle& triangle : mesh.triangles) area += doubleArea(triangle).norm();
+  std::vector<OrientedPoint> points;
+  double passed = 0.0;
+  for (const Triangle& triangle : mesh.triangles) {
+    const Eigen::Vector3d normal = doubleArea(triangle);
+    passed += normal.norm() / area * static_cast<double>(kSurfacePoints);
+    while (static_cast<double>(points.size()) + 0.5 < passed) {
+      // Additive recurrence, folded into the triangle.
+      const double n = static_cast<double>(points.size());
+      double u = n * 0.7548776662466927, v = n * 0.5698402909980532;
+      u -= std::floor(u);
+      v -= std::floor(v);
+      if (u + v > 1.0) {
+        u = 1.0 - u;
+        v = 1.0 - v;
+      }
+      const Eigen::Vector3d origin = corner(triangle, 0);
+      points.push_back(
+          {origin + u * (corner(triangle, 1) - origin) + v * (corner(triangle, 2) - origin), normal.normalized()});
+    }
+  }
+  return points;
+}
+
+/// Nearest point with about the same normal; meshes may be wound either way.
+const OrientedPoint* nearest(const std::vector<OrientedPoint>& points, const Eigen::Vector3d& point,
+                             const Eigen::Vector3d& normal, double reach_m) {
+  const OrientedPoint* best = nullptr;
+  double least = reach_m * reach_m;
+  for (const OrientedPoint& other : points) {
+    const double squared = (other.point - point).squaredNorm();
+    if (squared >= least || std::abs(other.normal.dot(normal)) < kSameNormalCosine) continue;
+    least = squared;
+    best = &other;
+  }
+  return best;
+}
+
+/// How an object lies on itself when it is moved.
+struct Overlap {
+  double share = 0.0;              ///< of its surface that lies on its surface
+  Pose better = Pose::Identity();  ///< lays the parts that do on one another better
+};
+
+/// @param queries points of the surface that are looked at.
+Overlap overlapAt(const std::vector<OrientedPoint>& surface, std::size_t queries, const Pose& T, double diameter_m) {
+  Overlap result;
+  result.better = T;
+  Matrix6d information = 1e-6 * Matrix6d::Identity();
+  Vector6d gradient = Vector6d::Zero();
+  const std::size_t count = std::min(queries, surface.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const OrientedPoint& point = surface[i * surface.size() / count];
+    const Eigen::Vector3d moved = T * point.point;
+    const OrientedPoint* other = nearest(surface, moved, T.linear() * point.normal, kReachPerDiameter * diameter_m);
+    if (other == nullptr) continue;
+    const double off = other->normal.dot(other->point - moved);
+    result.share += std::abs(off) < kTolerancePerDiameter * diameter_m ? 1.0 / static_cast<double>(count) : 0.0;
+    Vector6d jacobian;
+    jacobian << other->normal, (moved - T.translation()).cross(other->normal);
+    information += jacobian * jacobian.transpose();
+    gradient += off * jacobian;
+  }
+  information.diagonal().tail<3>().array() += 1e-3 * diameter_m * diameter_m;
+  information.diagonal().head<3>().array() += 1e-3;
+  result.better = perturb(T, information.ldlt().solve(gradient));
+  return result;
+}
+
+bool isNearAny(const Pose& T, const std::vector<Pose>& others, const Symmetries& symmetries) {
+  const auto near = [&](const Pose& other) {
+    return angle(foldOntoReference(T, other, symmetries).linear().transpose() * other.linear()) < kApartRad;
+  };
+  return near(Pose::Identity()) || std::any_of(others.begin(), others.end(), near);
+}
+
+}  // namespace
+
+std::vector<Pose> findLookAlikes(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object,
+                                 const Symmetries& symmetries) {
+  const std::vector<OrientedPoint> surface = surfacePoints(mesh, centre_object);
+  const double diameter_m = diameter(mesh);
+  std::vector<std::pair<double, Pose>> found;
+  for (std::size_t k = 0; k < kRotations && !surface.empty(); ++k) {
+    Pose T = Pose::Identity();
+    T.linear() = evenlySpreadRotation(k);
+    Overlap overlap = overlapAt(surface, kFewPoints, T, diameter_m);
+    if (overlap.share < kLeastOverlapAtFirst) continue;
+    for (int i = 0; i < kAlignments; ++i) overlap = overlapAt(surface, kFewPoints, overlap.better, diameter_m);
+    const double share = overlapAt(surface, kManyPoints, overlap.better, diameter_m).share;
+    if (share >= kLeastOverlap) found.emplace_back(share, overlap.better);
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Pose> look_alikes;
+  for (const auto& [share, T] : found) {
+    if (look_alikes.size() < kMaxLookAlikes && !isNearAny(T, look_alikes, symmetries)) look_alikes.push_back(T);
+  }
+  return look_alikes;
+}
+
+std::optional<Pose> LookAlikeCheck::findBetter(DepthLikelihood& likelihood, const Pose& T_camera_centre,
+                                               double exponent, bool was_followed) {
+  constexpr std::size_t kPerImage = 8;
+  constexpr double kBroadM = 0.006;
+  constexpr double kPromisingNat = 2.0, kSurelyNat = 8.0, kUsualTurnRad = 0.25;
+  if (look_alikes_.empty()) return std::nullopt;
+  const std::size_t count = std::min(kPerImage, look_alikes_.size());
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < count; ++i) {
+    poses.push_back(T_camera_centre * look_alikes_[(next_ + i) % look_alikes_.size()]);
+  }
+  next_ = (next_ + count) % look_alikes_.size();
+  likelihood.prepare(poses);
+  const Pose* best = nullptr;
+  double highest = likelihood.broadLogLikelihood(T_camera_centre, kBroadM, 0) - kPromisingNat / exponent;
+  for (const Pose& pose : poses) {
+    const double value = likelihood.broadLogLikelihood(pose, kBroadM, 0);
+    if (!(value > highest)) continue;
+    highest = value;
+    best = &pose;
+  }
+  if (best == nullptr) return std::nullopt;
+  const Pose climbed = climbLikelihood(likelihood, *best, {kBroadM, 0.002, 5}, 0);
+  const double gain = likelihood.logLikelihood(climbed, 0) - likelihood.logLikelihood(T_camera_centre, 0);
+  const double turned = angle(T_camera_centre.linear().transpose() * climbed.linear()) / kUsualTurnRad;
+  if (exponent * gain < kSurelyNat + (was_followed ? 0.5 * turned * turned : 0.0)) return std::nullopt;
+  return climbed;
+}
+
+}  // namespace depth_object_tracker
