@@ -22,6 +22,13 @@ constexpr double kLeastOverlapAtFirst = 0.45, kLeastOverlap = 0.7;
 constexpr double kSameNormalCosine = 0.7;
 constexpr int kAlignments = 6;
 
+constexpr double kBroadM = 0.006;
+constexpr ClimbSchedule kClimb = {kBroadM, 0.002, 5};
+constexpr double kSurelyNat = 8.0, kUsualTurnRad = 0.25;
+constexpr double kMostNat = 4.0;
+constexpr double kWorthFollowingNat = 1.5;  // less is chance, in every image
+constexpr double kForgottenHalfLifeS = 0.25;
+
 using Triangle = std::array<std::uint32_t, 3>;
 
 double angle(const Eigen::Matrix3d& R) {
@@ -137,32 +144,62 @@ std::vector<Pose> findLookAlikes(const TriangleMesh& mesh, const Eigen::Vector3d
   return look_alikes;
 }
 
-std::optional<Pose> LookAlikeCheck::findBetter(DepthLikelihood& likelihood, const Pose& T_camera_centre,
-                                               double exponent, bool was_followed) {
+const Pose* LookAlikeCheck::mostPromising(DepthLikelihood& likelihood, const Pose& T_camera_centre, double exponent) {
   constexpr std::size_t kPerImage = 8;
-  constexpr double kBroadM = 0.006;
-  constexpr double kPromisingNat = 2.0, kSurelyNat = 8.0, kUsualTurnRad = 0.25;
-  if (look_alikes_.empty()) return std::nullopt;
+  constexpr double kPromisingNat = 2.0;
   const std::size_t count = std::min(kPerImage, look_alikes_.size());
-  std::vector<Pose> poses;
+  candidates_.clear();
   for (std::size_t i = 0; i < count; ++i) {
-    poses.push_back(T_camera_centre * look_alikes_[(next_ + i) % look_alikes_.size()]);
+    candidates_.push_back(T_camera_centre * look_alikes_[(next_ + i) % look_alikes_.size()]);
   }
+  candidates_.reserve(count + 2);
+  if (pending_) candidates_.push_back(T_camera_centre * pending_->T_centre_centre);
   next_ = (next_ + count) % look_alikes_.size();
-  likelihood.prepare(poses);
+  likelihood.prepare(candidates_);
   const Pose* best = nullptr;
   double highest = likelihood.broadLogLikelihood(T_camera_centre, kBroadM, 0) - kPromisingNat / exponent;
-  for (const Pose& pose : poses) {
-    const double value = likelihood.broadLogLikelihood(pose, kBroadM, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double value = likelihood.broadLogLikelihood(candidates_[i], kBroadM, 0);
     if (!(value > highest)) continue;
     highest = value;
-    best = &pose;
+    best = &candidates_[i];
   }
-  if (best == nullptr) return std::nullopt;
-  const Pose climbed = climbLikelihood(likelihood, *best, {kBroadM, 0.002, 5}, 0);
-  const double gain = likelihood.logLikelihood(climbed, 0) - likelihood.logLikelihood(T_camera_centre, 0);
-  const double turned = angle(T_camera_centre.linear().transpose() * climbed.linear()) / kUsualTurnRad;
-  if (exponent * gain < kSurelyNat + (was_followed ? 0.5 * turned * turned : 0.0)) return std::nullopt;
+  return best;
+}
+
+std::optional<Pose> LookAlikeCheck::findBetter(DepthLikelihood& likelihood, const Pose& T_camera_centre,
+                                               double exponent, bool was_followed, double dt_s) {
+  if (look_alikes_.empty()) return std::nullopt;
+  if (was_followed) pending_.reset();
+  const Pose* promising = mostPromising(likelihood, T_camera_centre, exponent);
+  const double now = likelihood.logLikelihood(T_camera_centre, 0);
+  const auto evidence = [&](const Pose& pose) { return exponent * (likelihood.logLikelihood(pose, 0) - now); };
+  const auto needed = [&](const Pose& pose) {
+    const double turned = angle(T_camera_centre.linear().transpose() * pose.linear()) / kUsualTurnRad;
+    return kSurelyNat + (was_followed ? 0.5 * turned * turned : 0.0);
+  };
+  if (promising != nullptr) {
+    const Pose other = climbLikelihood(likelihood, *promising, kClimb, 0);
+    const double found = evidence(other);
+    if (found > needed(other)) {
+      pending_.reset();
+      return other;
+    }
+    if (!was_followed && !pending_ && found > kWorthFollowingNat) {
+      pending_ = Pending{T_camera_centre.inverse() * other, 0.0};
+      candidates_.push_back(other);
+    }
+  }
+  if (!pending_) return std::nullopt;
+  const Pose climbed = climbLikelihood(likelihood, candidates_.back(), kClimb, 0);
+  pending_->T_centre_centre = T_camera_centre.inverse() * climbed;
+  // Images in a row are wrong in the same way: none counts for much, and none for long.
+  pending_->evidence = pending_->evidence * std::exp2(-dt_s / kForgottenHalfLifeS) +
+                       std::clamp(evidence(climbed), -kMostNat, kMostNat) - kWorthFollowingNat;
+  const bool is_other = angle(pending_->T_centre_centre.linear()) > 0.5 * kApartRad;
+  const bool is_better = pending_->evidence > needed(climbed);
+  if (is_better || !is_other || pending_->evidence <= 0.0) pending_.reset();
+  if (!is_better) return std::nullopt;
   return climbed;
 }
 

@@ -55,6 +55,12 @@ constexpr double kBlindBelowVisibleFraction = 0.04;
 // With less of the object in view its pose counts as not seen.
 constexpr double kSeenAboveVisibleFraction = 0.3;
 
+/// Farther from one image to the next than objects usually turn.
+bool jumped(const Pose& from, const Pose& to) {
+  constexpr double kJumpRad = 0.6;
+  return difference(to, from).tail<3>().norm() > kJumpRad;
+}
+
 Symmetries aboutCentre(Symmetries symmetries, const Eigen::Vector3d& centre_object) {
   for (SymmetryAxis& axis : symmetries.continuous) axis.offset -= centre_object;
   for (Pose& pose : symmetries.discrete) {
@@ -127,7 +133,6 @@ class ObjectTracker::Implementation {
   PoseSearch search;
   LookAlikeCheck look_alikes;
   Reacquisition reacquisition;
-  Pose last_seen_centre = Pose::Identity();
   double unseen_s = 0.0;       // since the object was last seen well
   PoseStatistics last_mean;    // of the centre
   bool is_anywhere = false;    // nothing is known of the pose yet
@@ -170,7 +175,7 @@ class ObjectTracker::Implementation {
   bool moveToBetterPose(const DepthImageView& depth, const Pose& T_camera_centre);
   void startAt(const Pose& T_camera_centre);
   /// Moves to a pose that looks alike but explains the image better.
-  void turnToLookAlike(FilterEstimate& estimate, PoseAssessment& assessment);
+  void turnToLookAlike(FilterEstimate& estimate, PoseAssessment& assessment, double dt_s);
   /// Particles' velocities are relative to the hand while it is followed: hand over at grasp and release.
   void followHand(const ProcessStep& step, bool follows, double dt_s);
   void estimateSlip(const FilterEstimate& estimate, double dt_s);
@@ -209,7 +214,7 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
     estimate = look(time.dt_s, control);
     assessment = assess(estimate);
   }
-  turnToLookAlike(estimate, assessment);
+  turnToLookAlike(estimate, assessment, time.dt_s);
   calibrate(estimate, time.dt_s);
   full_resolution_pixels = assessment.covered_pixels * static_cast<double>(grid.factor * grid.factor);
   status.update(assessment, time.dt_s, is_blind);
@@ -341,12 +346,12 @@ bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth
   return better.has_value();
 }
 
-void ObjectTracker::Implementation::turnToLookAlike(FilterEstimate& estimate, PoseAssessment& assessment) {
+void ObjectTracker::Implementation::turnToLookAlike(FilterEstimate& estimate, PoseAssessment& assessment, double dt_s) {
   if (!mayReacquire() || is_blind || initial_variances) return;
   if (assessment.visible_pixels < kSeenAboveVisibleFraction * assessment.measured_pixels) return;
   const double exponent = likelihoodExponent(config.filter, likelihood.image().grid().factor);
   const std::optional<Pose> better =
-      look_alikes.findBetter(likelihood, estimate.pose.mean, exponent, moved_s > kSettledAfterS);
+      look_alikes.findBetter(likelihood, estimate.pose.mean, exponent, moved_s > kSettledAfterS, dt_s);
   if (!better) return;
   filter.moveInObject(estimate.pose.mean.inverse() * *better);
   estimate.pose.mean = *better;
@@ -356,6 +361,7 @@ void ObjectTracker::Implementation::turnToLookAlike(FilterEstimate& estimate, Po
 void ObjectTracker::Implementation::startAt(const Pose& T_camera_centre) {
   is_anywhere = false;
   moved_s = 0.0;
+  look_alikes.restart();
   filter.initialise(T_camera_centre);
   likelihood.resetOcclusion();
   status.restart();
@@ -395,8 +401,7 @@ void ObjectTracker::Implementation::rememberFit(const FilterEstimate& estimate, 
                     status.visibleFraction() >= kSeenAboveVisibleFraction;
   unseen_s = seen ? 0.0 : unseen_s + dt_s;
   reacquired_s += dt_s;
-  moved_s += dt_s;
-  if (seen) last_seen_centre = estimate.pose.mean;
+  moved_s = jumped(last_mean.mean, estimate.pose.mean) ? 0.0 : moved_s + dt_s;
   last_mean = estimate.pose;
   // What is seen fits worse than the sensor model expects: perhaps a neighbouring mode.
   fit_is_poor = seen && status.score() < kPoorScore;
@@ -468,13 +473,15 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
     self.initial_variances = transportCovariance(covariance, centre_from_origin).diagonal();
   }
   self.filter.initialise(T_camera_centre);
-  self.last_seen_centre = T_camera_centre;
+  self.last_mean = PoseStatistics();
+  self.last_mean.mean = T_camera_centre;
   self.unseen_s = 0.0;
   self.fit_is_poor = false;
   self.poor_s = 0.0;
   self.is_blind = self.is_anywhere = false;
   self.reacquired_s = self.moved_s = kLongAgoS;
   self.calibration.restart();
+  self.look_alikes.restart();
   self.reacquisition.restart();
   self.follows_hand = false;
   self.slip.reset();
@@ -496,8 +503,6 @@ void ObjectTracker::initialiseAnywhere() {
   initialise(T_camera_object);
   self.initial_variances.reset();
   self.is_blind = self.is_anywhere = true;
-  self.last_mean = PoseStatistics();
-  self.last_mean.mean = self.toCentre(T_camera_object);
   self.result.reason = self.status.reason();
 }
 
@@ -510,7 +515,6 @@ void ObjectTracker::moveCamera(const Pose& T_now_before) {
   Implementation& self = *implementation_;
   const Eigen::Matrix3d R_now_before = T_now_before.linear();
   self.filter.moveCamera(T_now_before);
-  self.last_seen_centre = T_now_before * self.last_seen_centre;
   self.hand_velocity = rotated(self.hand_velocity, R_now_before);
   self.last_mean.mean = T_now_before * self.last_mean.mean;
   self.last_mean.covariance = rotated(self.last_mean.covariance, R_now_before);

@@ -24,14 +24,26 @@ class LookAlikeCheck {
 
   /// @param exponent gamma of the filter. @param was_followed T_camera_centre was followed from a pose that was right:
   /// the farther a turn, the surer it must be (a finger makes a fine handle where the mug's own is hidden).
-  /// @return a pose of the centre that explains the image surely better.
+  /// @param dt_s since the last image. @return a pose of the centre that explains the last images surely better.
   std::optional<Pose> findBetter(DepthLikelihood& likelihood, const Pose& T_camera_centre, double exponent,
-                                 bool was_followed);
+                                 bool was_followed, double dt_s);
+
+  /// Forgets what earlier images said.
+  void restart() { pending_.reset(); }
 
   std::size_t count() const { return look_alikes_.size(); }
 
  private:
+  struct Pending {
+    Pose T_centre_centre;
+    double evidence;  ///< for it and against the estimate, tempered [nat]
+  };
+
+  const Pose* mostPromising(DepthLikelihood& likelihood, const Pose& T_camera_centre, double exponent);
+
   std::vector<Pose> look_alikes_;
+  std::vector<Pose> candidates_;  // of this image; the pending one last
+  std::optional<Pending> pending_;
   std::size_t next_ = 0;
 };
 
