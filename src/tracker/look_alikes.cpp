@@ -22,9 +22,11 @@ constexpr double kLeastOverlapAtFirst = 0.45, kLeastOverlap = 0.7;
 constexpr double kSameNormalCosine = 0.7;
 constexpr int kAlignments = 6;
 
-constexpr double kBroadM = 0.006;
+constexpr double kBroadM = 0.012;
 constexpr ClimbSchedule kClimb = {kBroadM, 0.002, 5};
 constexpr double kSurelyNat = 8.0, kUsualTurnRad = 0.25;
+constexpr double kPromisingNat = 2.0, kPerhapsPromisingNat = 30.0;
+constexpr std::size_t kClimbsWhenNew = 3;
 constexpr double kMostNat = 4.0;
 constexpr double kWorthFollowingNat = 1.5;  // less is chance, in every image
 constexpr double kForgottenHalfLifeS = 0.25;
@@ -113,6 +115,12 @@ Overlap overlapAt(const std::vector<OrientedPoint>& surface, std::size_t queries
   return result;
 }
 
+/// Evidence [nat] that a turn needs: the farther, the surer, if the pose was followed from one that was right.
+double needed(const Pose& from, const Pose& to, bool was_followed) {
+  const double turned = angle(from.linear().transpose() * to.linear()) / kUsualTurnRad;
+  return kSurelyNat + (was_followed ? 0.5 * turned * turned : 0.0);
+}
+
 bool isNearAny(const Pose& T, const std::vector<Pose>& others, const Symmetries& symmetries) {
   const auto near = [&](const Pose& other) {
     return angle(foldOntoReference(T, other, symmetries).linear().transpose() * other.linear()) < kApartRad;
@@ -144,60 +152,63 @@ std::vector<Pose> findLookAlikes(const TriangleMesh& mesh, const Eigen::Vector3d
   return look_alikes;
 }
 
-const Pose* LookAlikeCheck::mostPromising(DepthLikelihood& likelihood, const Pose& T_camera_centre, double exponent) {
+void LookAlikeCheck::rankCandidates(DepthLikelihood& likelihood, const Pose& T_camera_centre) {
   constexpr std::size_t kPerImage = 8;
-  constexpr double kPromisingNat = 2.0;
   const std::size_t count = std::min(kPerImage, look_alikes_.size());
-  candidates_.clear();
+  std::vector<Pose> poses;
   for (std::size_t i = 0; i < count; ++i) {
-    candidates_.push_back(T_camera_centre * look_alikes_[(next_ + i) % look_alikes_.size()]);
+    poses.push_back(T_camera_centre * look_alikes_[(next_ + i) % look_alikes_.size()]);
   }
-  candidates_.reserve(count + 2);
-  if (pending_) candidates_.push_back(T_camera_centre * pending_->T_centre_centre);
   next_ = (next_ + count) % look_alikes_.size();
-  likelihood.prepare(candidates_);
-  const Pose* best = nullptr;
-  double highest = likelihood.broadLogLikelihood(T_camera_centre, kBroadM, 0) - kPromisingNat / exponent;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double value = likelihood.broadLogLikelihood(candidates_[i], kBroadM, 0);
-    if (!(value > highest)) continue;
-    highest = value;
-    best = &candidates_[i];
-  }
-  return best;
+  if (pending_) poses.push_back(T_camera_centre * pending_->T_centre_centre);
+  likelihood.prepare(poses);
+  if (pending_) poses.pop_back();
+  candidates_.clear();
+  for (const Pose& pose : poses) candidates_.push_back({likelihood.broadLogLikelihood(pose, kBroadM, 0), pose});
+  std::stable_sort(candidates_.begin(), candidates_.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.broad > b.broad; });
 }
 
 std::optional<Pose> LookAlikeCheck::findBetter(DepthLikelihood& likelihood, const Pose& T_camera_centre,
                                                double exponent, bool was_followed, double dt_s) {
   if (look_alikes_.empty()) return std::nullopt;
   if (was_followed) pending_.reset();
-  const Pose* promising = mostPromising(likelihood, T_camera_centre, exponent);
+  rankCandidates(likelihood, T_camera_centre);
   const double now = likelihood.logLikelihood(T_camera_centre, 0);
   const auto evidence = [&](const Pose& pose) { return exponent * (likelihood.logLikelihood(pose, 0) - now); };
-  const auto needed = [&](const Pose& pose) {
-    const double turned = angle(T_camera_centre.linear().transpose() * pose.linear()) / kUsualTurnRad;
-    return kSurelyNat + (was_followed ? 0.5 * turned * turned : 0.0);
-  };
-  if (promising != nullptr) {
-    const Pose other = climbLikelihood(likelihood, *promising, kClimb, 0);
-    const double found = evidence(other);
-    if (found > needed(other)) {
-      pending_.reset();
-      return other;
-    }
-    if (!was_followed && !pending_ && found > kWorthFollowingNat) {
-      pending_ = Pending{T_camera_centre.inverse() * other, 0.0};
-      candidates_.push_back(other);
-    }
+
+  // Of a pose that was followed only what is as good already is worth the climb.
+  const double least = likelihood.broadLogLikelihood(T_camera_centre, kBroadM, 0) -
+                       (was_followed ? kPromisingNat : kPerhapsPromisingNat) / exponent;
+  const std::size_t climbs = was_followed ? 1 : kClimbsWhenNew;
+  std::optional<Pose> best;
+  double found = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < std::min(climbs, candidates_.size()) && candidates_[i].broad > least; ++i) {
+    const Pose climbed = climbLikelihood(likelihood, candidates_[i].pose, kClimb, 0);
+    const double value = evidence(climbed);
+    if (!(value > found)) continue;
+    found = value;
+    best = climbed;
   }
+  if (best && found > needed(T_camera_centre, *best, was_followed)) {
+    pending_.reset();
+    return best;
+  }
+  if (was_followed) return std::nullopt;
+  if (!pending_ && best && found > kWorthFollowingNat) pending_ = Pending{T_camera_centre.inverse() * *best, 0.0};
+  return followPending(likelihood, T_camera_centre, evidence, dt_s);
+}
+
+std::optional<Pose> LookAlikeCheck::followPending(DepthLikelihood& likelihood, const Pose& T_camera_centre,
+                                                  const std::function<double(const Pose&)>& evidence, double dt_s) {
   if (!pending_) return std::nullopt;
-  const Pose climbed = climbLikelihood(likelihood, candidates_.back(), kClimb, 0);
+  const Pose climbed = climbLikelihood(likelihood, T_camera_centre * pending_->T_centre_centre, kClimb, 0);
   pending_->T_centre_centre = T_camera_centre.inverse() * climbed;
   // Images in a row are wrong in the same way: none counts for much, and none for long.
   pending_->evidence = pending_->evidence * std::exp2(-dt_s / kForgottenHalfLifeS) +
                        std::clamp(evidence(climbed), -kMostNat, kMostNat) - kWorthFollowingNat;
   const bool is_other = angle(pending_->T_centre_centre.linear()) > 0.5 * kApartRad;
-  const bool is_better = pending_->evidence > needed(climbed);
+  const bool is_better = pending_->evidence > kSurelyNat;
   if (is_better || !is_other || pending_->evidence <= 0.0) pending_.reset();
   if (!is_better) return std::nullopt;
   return climbed;

@@ -55,12 +55,6 @@ constexpr double kBlindBelowVisibleFraction = 0.04;
 // With less of the object in view its pose counts as not seen.
 constexpr double kSeenAboveVisibleFraction = 0.3;
 
-/// Farther from one image to the next than objects usually turn.
-bool jumped(const Pose& from, const Pose& to) {
-  constexpr double kJumpRad = 0.6;
-  return difference(to, from).tail<3>().norm() > kJumpRad;
-}
-
 Symmetries aboutCentre(Symmetries symmetries, const Eigen::Vector3d& centre_object) {
   for (SymmetryAxis& axis : symmetries.continuous) axis.offset -= centre_object;
   for (Pose& pose : symmetries.discrete) {
@@ -401,7 +395,7 @@ void ObjectTracker::Implementation::rememberFit(const FilterEstimate& estimate, 
                     status.visibleFraction() >= kSeenAboveVisibleFraction;
   unseen_s = seen ? 0.0 : unseen_s + dt_s;
   reacquired_s += dt_s;
-  moved_s = jumped(last_mean.mean, estimate.pose.mean) ? 0.0 : moved_s + dt_s;
+  moved_s += dt_s;
   last_mean = estimate.pose;
   // What is seen fits worse than the sensor model expects: perhaps a neighbouring mode.
   fit_is_poor = seen && status.score() < kPoorScore;

@@ -35,9 +35,11 @@ double fitQuality(const TileFit& fit) {
 
 double findQuality(const PoseAssessment& assessment) {
   constexpr int kLeastCells = 10;
-  constexpr double kPerContinuedShare = 2.0;
+  constexpr double kPerContinuedShare = 2.0, kLeastMeasured = 0.5;
   if (assessment.measured_pixels < kLeastCells || !(assessment.expected > 0.0)) return 0.0;
-  const double visible = assessment.visible_pixels / assessment.measured_pixels;
+  // Where most of it has no reading nothing is seen of it, however well the rest fits.
+  const double visible = assessment.visible_pixels /
+                         std::max<double>(assessment.measured_pixels, kLeastMeasured * assessment.covered_pixels);
   const double score = std::min(1.0, assessment.achieved / assessment.expected);
   const double continued =
       static_cast<double>(assessment.continued_pixels) / std::max(1, assessment.surrounding_pixels);

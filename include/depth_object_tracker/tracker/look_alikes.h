@@ -7,6 +7,7 @@
 #include "depth_object_tracker/geometry/symmetry.h"
 #include "depth_object_tracker/tracker/oriented_points.h"
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -39,10 +40,18 @@ class LookAlikeCheck {
     double evidence;  ///< for it and against the estimate, tempered [nat]
   };
 
-  const Pose* mostPromising(DepthLikelihood& likelihood, const Pose& T_camera_centre, double exponent);
+  struct Candidate {
+    double broad;  ///< log likelihood with wide noise
+    Pose pose;
+  };
+
+  /// The next few look-alikes, the most promising first.
+  void rankCandidates(DepthLikelihood& likelihood, const Pose& T_camera_centre);
+  std::optional<Pose> followPending(DepthLikelihood& likelihood, const Pose& T_camera_centre,
+                                    const std::function<double(const Pose&)>& evidence, double dt_s);
 
   std::vector<Pose> look_alikes_;
-  std::vector<Pose> candidates_;  // of this image; the pending one last
+  std::vector<Candidate> candidates_;  // of this image
   std::optional<Pending> pending_;
   std::size_t next_ = 0;
 };
