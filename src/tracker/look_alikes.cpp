@@ -4,6 +4,8 @@
 #include "depth_object_tracker/filter/likelihood_climb.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +26,7 @@ constexpr int kAlignments = 6;
 
 constexpr double kBroadM = 0.012;
 constexpr ClimbSchedule kClimb = {kBroadM, 0.002, 5};
-constexpr double kSurelyNat = 8.0, kUsualTurnRad = 0.25;
+constexpr double kNearbyNat = 3.0, kSurelyNat = 8.0, kUsualTurnRad = 0.25;
 constexpr double kPromisingNat = 2.0, kPerhapsPromisingNat = 30.0;
 constexpr std::size_t kClimbsWhenNew = 3;
 constexpr double kMostNat = 4.0;
@@ -128,10 +130,47 @@ bool isNearAny(const Pose& T, const std::vector<Pose>& others, const Symmetries&
   return near(Pose::Identity()) || std::any_of(others.begin(), others.end(), near);
 }
 
+/// The line that a motion turns about.
+struct ScrewAxis {
+  Eigen::Vector3d direction, point;
+};
+
+ScrewAxis axisOf(const Pose& T) {
+  const Eigen::Vector3d direction = Eigen::AngleAxisd(T.linear()).axis();
+  const Eigen::Matrix3d moved = Eigen::Matrix3d::Identity() - T.linear() + direction * direction.transpose();
+  const Eigen::Vector3d across = T.translation() - direction.dot(T.translation()) * direction;
+  return {direction, moved.fullPivLu().solve(across)};
+}
+
+/// Small turns about axes that several look-alikes turn about: a mug's, not a box's.
+std::vector<Pose> smallTurns(const std::vector<Pose>& look_alikes) {
+  constexpr double kSameAxisCosine = 0.97;
+  constexpr std::size_t kLeastLookAlikes = 4;
+  std::vector<ScrewAxis> axes;
+  for (const Pose& T : look_alikes) {
+    const ScrewAxis axis = axisOf(T);
+    const auto isSame = [&](const ScrewAxis& other) {
+      return std::abs(other.direction.dot(axis.direction)) > kSameAxisCosine;
+    };
+    const auto alike =
+        std::count_if(look_alikes.begin(), look_alikes.end(), [&](const Pose& other) { return isSame(axisOf(other)); });
+    if (static_cast<std::size_t>(alike) < kLeastLookAlikes || std::any_of(axes.begin(), axes.end(), isSame)) continue;
+    axes.push_back(axis);
+  }
+  std::vector<Pose> turns;
+  for (const ScrewAxis& axis : axes) {
+    for (const double turn : {-0.2, -0.1, 0.1, 0.2}) {
+      turns.push_back(Eigen::Translation3d(axis.point) * Eigen::AngleAxisd(turn, axis.direction) *
+                      Eigen::Translation3d(-axis.point));
+    }
+  }
+  return turns;
+}
+
 }  // namespace
 
-std::vector<Pose> findLookAlikes(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object,
-                                 const Symmetries& symmetries) {
+LookAlikes findLookAlikes(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object,
+                          const Symmetries& symmetries) {
   const std::vector<OrientedPoint> surface = surfacePoints(mesh, centre_object);
   const double diameter_m = diameter(mesh);
   std::vector<std::pair<double, Pose>> found;
@@ -145,21 +184,24 @@ std::vector<Pose> findLookAlikes(const TriangleMesh& mesh, const Eigen::Vector3d
     if (share >= kLeastOverlap) found.emplace_back(share, overlap.better);
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::vector<Pose> look_alikes;
+  LookAlikes look_alikes;
   for (const auto& [share, T] : found) {
-    if (look_alikes.size() < kMaxLookAlikes && !isNearAny(T, look_alikes, symmetries)) look_alikes.push_back(T);
+    if (look_alikes.far.size() < kMaxLookAlikes && !isNearAny(T, look_alikes.far, symmetries)) {
+      look_alikes.far.push_back(T);
+    }
   }
+  look_alikes.near = smallTurns(look_alikes.far);
   return look_alikes;
 }
 
 void LookAlikeCheck::rankCandidates(DepthLikelihood& likelihood, const Pose& T_camera_centre) {
   constexpr std::size_t kPerImage = 8;
-  const std::size_t count = std::min(kPerImage, look_alikes_.size());
+  const std::size_t count = std::min(kPerImage, look_alikes_.far.size());
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < count; ++i) {
-    poses.push_back(T_camera_centre * look_alikes_[(next_ + i) % look_alikes_.size()]);
+    poses.push_back(T_camera_centre * look_alikes_.far[(next_ + i) % look_alikes_.far.size()]);
   }
-  next_ = (next_ + count) % look_alikes_.size();
+  next_ = (next_ + count) % look_alikes_.far.size();
   if (pending_) poses.push_back(T_camera_centre * pending_->T_centre_centre);
   likelihood.prepare(poses);
   if (pending_) poses.pop_back();
@@ -171,7 +213,8 @@ void LookAlikeCheck::rankCandidates(DepthLikelihood& likelihood, const Pose& T_c
 
 std::optional<Pose> LookAlikeCheck::findBetter(DepthLikelihood& likelihood, const Pose& T_camera_centre,
                                                double exponent, bool was_followed, double dt_s) {
-  if (look_alikes_.empty()) return std::nullopt;
+  if (look_alikes_.far.empty()) return std::nullopt;
+  if (const std::optional<Pose> nearby = findNearby(likelihood, T_camera_centre, exponent)) return nearby;
   if (was_followed) pending_.reset();
   rankCandidates(likelihood, T_camera_centre);
   const double now = likelihood.logLikelihood(T_camera_centre, 0);
@@ -197,6 +240,26 @@ std::optional<Pose> LookAlikeCheck::findBetter(DepthLikelihood& likelihood, cons
   if (was_followed) return std::nullopt;
   if (!pending_ && best && found > kWorthFollowingNat) pending_ = Pending{T_camera_centre.inverse() * *best, 0.0};
   return followPending(likelihood, T_camera_centre, evidence, dt_s);
+}
+
+std::optional<Pose> LookAlikeCheck::findNearby(DepthLikelihood& likelihood, const Pose& T_camera_centre,
+                                               double exponent) const {
+  constexpr ClimbSchedule kClimbNear = {0.004, 0.002, 5};
+  const Pose* best = nullptr;
+  std::vector<Pose> poses;
+  for (const Pose& T : look_alikes_.near) poses.push_back(T_camera_centre * T);
+  const double now = likelihood.logLikelihood(T_camera_centre, 0);
+  double highest = now - kPromisingNat / exponent;
+  for (const Pose& pose : poses) {
+    const double value = likelihood.logLikelihood(pose, 0);
+    if (!(value > highest)) continue;
+    highest = value;
+    best = &pose;
+  }
+  if (best == nullptr) return std::nullopt;
+  const Pose climbed = climbLikelihood(likelihood, *best, kClimbNear, 0);
+  if (exponent * (likelihood.logLikelihood(climbed, 0) - now) < kNearbyNat) return std::nullopt;
+  return climbed;
 }
 
 std::optional<Pose> LookAlikeCheck::followPending(DepthLikelihood& likelihood, const Pose& T_camera_centre,

@@ -13,15 +13,18 @@
 
 namespace depth_object_tracker {
 
+struct LookAlikes {
+  std::vector<Pose> far;   ///< T_centre_centre, the most similar first; none near the identity
+  std::vector<Pose> near;  ///< small turns about the axes of those that an object can turn about all the way
+};
+
 /// @param symmetries about the centre: what looks exactly the same is no look-alike.
-/// @return T_centre_centre, the most similar first; none of them near the identity.
-std::vector<Pose> findLookAlikes(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object,
-                                 const Symmetries& symmetries);
+LookAlikes findLookAlikes(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object, const Symmetries& symmetries);
 
 /// Compares an estimate with its look-alikes, a few in every image.
 class LookAlikeCheck {
  public:
-  explicit LookAlikeCheck(std::vector<Pose> look_alikes) : look_alikes_(std::move(look_alikes)) {}
+  explicit LookAlikeCheck(LookAlikes look_alikes) : look_alikes_(std::move(look_alikes)) {}
 
   /// @param exponent gamma of the filter. @param was_followed T_camera_centre was followed from a pose that was right:
   /// the farther a turn, the surer it must be (a finger makes a fine handle where the mug's own is hidden).
@@ -32,7 +35,7 @@ class LookAlikeCheck {
   /// Forgets what earlier images said.
   void restart() { pending_.reset(); }
 
-  std::size_t count() const { return look_alikes_.size(); }
+  const LookAlikes& lookAlikes() const { return look_alikes_; }
 
  private:
   struct Pending {
@@ -47,10 +50,11 @@ class LookAlikeCheck {
 
   /// The next few look-alikes, the most promising first.
   void rankCandidates(DepthLikelihood& likelihood, const Pose& T_camera_centre);
+  std::optional<Pose> findNearby(DepthLikelihood& likelihood, const Pose& T_camera_centre, double exponent) const;
   std::optional<Pose> followPending(DepthLikelihood& likelihood, const Pose& T_camera_centre,
                                     const std::function<double(const Pose&)>& evidence, double dt_s);
 
-  std::vector<Pose> look_alikes_;
+  LookAlikes look_alikes_;
   std::vector<Candidate> candidates_;  // of this image
   std::optional<Pending> pending_;
   std::size_t next_ = 0;
