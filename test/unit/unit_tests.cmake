@@ -12,6 +12,7 @@ add_tracker_test(parameter_unit_tests SOURCES
   unit/object_model_test.cpp
   unit/tracker_parameters_test.cpp)
 add_tracker_test(filter_unit_tests SOURCES
+  unit/filter_calibration_test.cpp
   unit/filter_occlusion_tiles_test.cpp
   unit/filter_pose_statistics_test.cpp
   unit/filter_random_test.cpp

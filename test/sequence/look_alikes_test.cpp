@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Turns after which an object looks almost the same.
+#include "depth_object_tracker/tracker/look_alikes.h"
+
+#include "scripted_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+
+namespace depth_object_tracker {
+namespace {
+
+double angleBetween(const Pose& a, const Pose& b) {
+  return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
+}
+
+LookAlikes lookAlikesOf(const ScriptedScene& scene, const Symmetries& symmetries = {}) {
+  const TriangleMesh& mesh = scene.object().mesh;
+  return findLookAlikes(mesh, surfaceCentroid(mesh), symmetries);
+}
+
+TEST(LookAlikesOfObjects, AMugLooksAlikeAllTheWayAboutItsAxis) {
+  const ScriptedScene scene("mug", 1);
+  const LookAlikes found = lookAlikesOf(scene);
+  const auto about_axis = std::count_if(found.far.begin(), found.far.end(), [](const Pose& T) {
+    return std::abs(Eigen::AngleAxisd(T.linear()).axis().z()) > 0.98;
+  });
+  EXPECT_GE(about_axis, 8);
+  ASSERT_EQ(found.near.size(), 4u);
+  for (const Pose& T : found.near) {
+    EXPECT_GT(std::abs(Eigen::AngleAxisd(T.linear()).axis().z()), 0.98);
+    EXPECT_LT(Eigen::AngleAxisd(T.linear()).angle(), 0.25);
+  }
+}
+
+TEST(LookAlikesOfObjects, ABoxEndForEndUnlessThatIsDeclared) {
+  const ScriptedScene scene("box", 1);
+  const LookAlikes undeclared = lookAlikesOf(scene);
+  EXPECT_EQ(undeclared.far.size(), 3u);
+  EXPECT_TRUE(undeclared.near.empty()) << "a box does not turn freely";
+  Symmetries symmetries;
+  for (int axis = 0; axis < 3; ++axis) {
+    Pose half_turn = Pose::Identity();
+    half_turn.linear() = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::Unit(axis)).toRotationMatrix();
+    symmetries.discrete.push_back(half_turn);
+  }
+  EXPECT_TRUE(lookAlikesOf(scene, symmetries).far.empty());
+}
+
+TEST(LookAlikesOfObjects, ADrillHasNoAxis) {
+  const LookAlikes found = lookAlikesOf(ScriptedScene("drill", 1));
+  EXPECT_LE(found.far.size(), 2u);
+  EXPECT_TRUE(found.near.empty());
+}
+
+class LookAlikeChecked : public testing::Test {
+ protected:
+  LookAlikeChecked()
+      : scene_("mug", 3),
+        centre_(surfaceCentroid(scene_.object().mesh)),
+        likelihood_(scene_.object().mesh, centre_, PixelModelConfig(), OcclusionChainConfig(), 1, 1),
+        check_(lookAlikesOf(scene_)) {
+    // The handle is seen from the side.
+    truth_ = restingPose() * Eigen::AngleAxisd(0.6, Eigen::Vector3d::UnitZ());
+    likelihood_.setImage(scene_.view(scene_.render(truth_)), makeSamplingGrid(scene_.camera(), 2), 0.0);
+    centre_truth_ = truth_ * Eigen::Translation3d(centre_);
+    likelihood_.prepare({centre_truth_, turned(M_PI)});
+  }
+
+  /// The truth, turned about the mug's axis.
+  Pose turned(double angle_rad) const {
+    return truth_ * Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()) * Eigen::Translation3d(centre_);
+  }
+
+  std::optional<Pose> findBetter(const Pose& from, bool was_followed) {
+    for (int k = 0; k < 8; ++k) {
+      if (auto better = check_.findBetter(likelihood_, from, kExponent, was_followed, 1.0 / 30.0)) return better;
+    }
+    return std::nullopt;
+  }
+
+  static constexpr double kExponent = 0.06;
+  ScriptedScene scene_;
+  Eigen::Vector3d centre_;
+  DepthLikelihood likelihood_;
+  LookAlikeCheck check_;
+  Pose truth_, centre_truth_;
+};
+
+TEST_F(LookAlikeChecked, AWrongTurnIsFoundOutWhenTheHandleIsSeen) {
+  for (const double wrong : {0.25, 1.0, 2.0, 3.0}) {
+    const std::optional<Pose> better = findBetter(turned(wrong), false);
+    ASSERT_TRUE(better) << wrong;
+    EXPECT_LT(angleBetween(*better, centre_truth_), 0.12) << wrong;
+  }
+}
+
+TEST_F(LookAlikeChecked, TheRightTurnIsKept) {
+  for (int k = 0; k < 12; ++k) {
+    EXPECT_FALSE(check_.findBetter(likelihood_, centre_truth_, kExponent, k % 2 == 0, 1.0 / 30.0));
+  }
+}
+
+}  // namespace
+}  // namespace depth_object_tracker
