@@ -41,6 +41,7 @@ add_library(depth_object_tracker_core SHARED
   src/render/tile_outline.cpp
   src/render/tile_rasterizer.cpp
   src/render/tile_renderer.cpp
+  src/tracker/doubt.cpp
   src/tracker/frame_budget.cpp
   src/tracker/frame_clock.cpp
   src/tracker/input_check.cpp

@@ -27,7 +27,7 @@ constexpr int kAlignments = 6;
 constexpr double kBroadM = 0.012;
 constexpr ClimbSchedule kClimb = {kBroadM, 0.002, 5};
 constexpr double kNearbyNat = 3.0, kSurelyNat = 8.0, kUsualTurnRad = 0.25;
-constexpr double kPromisingNat = 2.0, kPerhapsPromisingNat = 30.0;
+constexpr double kPromisingNat = 5.0, kPerhapsPromisingNat = 30.0;
 constexpr std::size_t kClimbsWhenNew = 3;
 constexpr double kMostNat = 4.0;
 constexpr double kWorthFollowingNat = 1.5;  // less is chance, in every image

@@ -6,6 +6,7 @@
 #include "depth_object_tracker/filter/stopwatch.h"
 #include "depth_object_tracker/model/slip_estimator.h"
 #include "depth_object_tracker/render/depth_renderer.h"
+#include "depth_object_tracker/tracker/doubt.h"
 #include "depth_object_tracker/tracker/frame_clock.h"
 #include "depth_object_tracker/tracker/live_parameters.h"
 #include "depth_object_tracker/tracker/look_alikes.h"
@@ -48,8 +49,8 @@ Vector6d anyTurnVariances() {
 
 constexpr int kHypotheses = 100;
 constexpr double kPoorFitReachS = 0.3;  // as far as after this long unseen
-constexpr double kPoorScore = 0.85;
-constexpr int kLeastParticles = 24;  // that a late frame is not cut below
+constexpr double kFitsWithinS = 0.3;    // an initial pose, or it is wrong
+constexpr int kLeastParticles = 24;     // that a late frame is not cut below
 // With less in view than this the image says nothing of the pose but where it is not.
 constexpr double kBlindBelowVisibleFraction = 0.04;
 // With less of the object in view its pose counts as not seen.
@@ -132,9 +133,9 @@ class ObjectTracker::Implementation {
   bool is_anywhere = false;    // nothing is known of the pose yet
   bool is_blind = false;       // nothing of the object was seen in the last image, or not where it was thought to be
   double moved_s = kLongAgoS;  // since the filter was started anew, at a pose that was searched
-  double reacquired_s = kLongAgoS;         // since the object was found again
-  bool fit_is_poor = false;                // look around in the next frame
-  double poor_s = 0.0;                     // since it last was good
+  double reacquired_s = kLongAgoS;  // since the object was found again
+  Doubt doubt;
+  double initialising_s = 0.0;             // since an initial pose that does not fit yet
   std::optional<ProcessStep> step_in_use;  // of the last image that was looked at
   bool follows_hand = false;
   Vector6d hand_velocity = Vector6d::Zero();  // of the centre as the robot has it; zero when it is not followed
@@ -165,7 +166,7 @@ class ObjectTracker::Implementation {
   /// Starts the filter anew where the object is seen. @return false when it is not.
   bool reacquire(const DepthImageView& depth, double dt_s);
   /// The estimate may be at a neighbouring mode: the image does not fit well, or the object was only just found.
-  bool isDoubtful() const;
+  Doubt::Look whereToLook() const;
   bool moveToBetterPose(const DepthImageView& depth, const Pose& T_camera_centre);
   void startAt(const Pose& T_camera_centre);
   /// Moves to a pose that looks alike but explains the image better.
@@ -204,7 +205,7 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
     is_blind = true;
     estimate = hold(time.dt_s, control);
     assessment = assess(estimate);
-  } else if (!is_blind && isDoubtful() && moveToBetterPose(depth, estimate.pose.mean)) {
+  } else if (!is_blind && moveToBetterPose(depth, estimate.pose.mean)) {
     estimate = look(time.dt_s, control);
     assessment = assess(estimate);
   }
@@ -318,7 +319,8 @@ bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, doubl
   region.variances = searchVariances(unseen_s + dt_s);
   region.is_known = !is_anywhere;
   // As long as something in front explains why nothing is seen, the object is most likely still behind it.
-  region.everywhere = status.state() == TrackerState::kLost || unseen_s > kSearchEverywhereAfterS;
+  region.everywhere = status.state() == TrackerState::kLost || status.state() == TrackerState::kInitializing ||
+                      unseen_s > kSearchEverywhereAfterS;
   const std::optional<Pose> found = reacquisition.search(depth, camera_in_use, region);
   if (!found) return false;
   startAt(*found);
@@ -326,17 +328,23 @@ bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, doubl
   return true;
 }
 
-bool ObjectTracker::Implementation::isDoubtful() const {
-  if (!mayReacquire() || initial_variances || status.state() != TrackerState::kTracking) return false;
-  return fit_is_poor || reacquired_s < kDoubtfulAfterFindS;
+Doubt::Look ObjectTracker::Implementation::whereToLook() const {
+  if (!mayReacquire() || initial_variances || status.state() != TrackerState::kTracking) return Doubt::Look::kNowhere;
+  if (reacquired_s < kDoubtfulAfterFindS) return Doubt::Look::kAround;
+  return doubt.look();
 }
 
 bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth, const Pose& T_camera_centre) {
+  const Doubt::Look look = whereToLook();
+  if (look == Doubt::Look::kNowhere) return false;
   const bool just_found = reacquired_s < kDoubtfulAfterFindS;
-  const std::optional<Pose> better = reacquisition.findBetter(
-      depth, camera_in_use, T_camera_centre,
-      just_found ? anyTurnVariances() : searchVariances(std::min(poor_s, kDoubtfulReachS)), just_found);
+  OtherPoses others;
+  others.everywhere = look == Doubt::Look::kEverywhere;
+  others.by_likelihood = just_found || others.everywhere;
+  others.variances = just_found ? anyTurnVariances() : searchVariances(std::min(doubt.poorSince(), kDoubtfulReachS));
+  const std::optional<Pose> better = reacquisition.findBetter(depth, camera_in_use, T_camera_centre, others);
   if (better) startAt(*better);
+  if (others.everywhere) doubt.lookedEverywhere();
   return better.has_value();
 }
 
@@ -395,12 +403,13 @@ void ObjectTracker::Implementation::rememberFit(const FilterEstimate& estimate, 
                     status.visibleFraction() >= kSeenAboveVisibleFraction;
   unseen_s = seen ? 0.0 : unseen_s + dt_s;
   reacquired_s += dt_s;
-  moved_s += dt_s;
+  // A pose that had to be searched is not one that was followed.
+  moved_s = status.state() == TrackerState::kInitializing ? 0.0 : moved_s + dt_s;
   last_mean = estimate.pose;
-  // What is seen fits worse than the sensor model expects: perhaps a neighbouring mode.
-  fit_is_poor = seen && status.score() < kPoorScore;
-  poor_s = seen && !fit_is_poor ? 0.0 : poor_s + dt_s;
-  const bool may_be_blind = mayReacquire() && status.state() != TrackerState::kInitializing;
+  doubt.update(status.score(), seen, dt_s);
+  initialising_s = status.state() == TrackerState::kInitializing ? initialising_s + dt_s : 0.0;
+  const bool may_be_blind =
+      mayReacquire() && (status.state() != TrackerState::kInitializing || initialising_s > kFitsWithinS);
   const bool nothing_seen = status.visibleFraction() < kBlindBelowVisibleFraction || status.misfit();
   is_blind = is_anywhere || (may_be_blind && (is_blind || nothing_seen || status.state() == TrackerState::kLost));
 }
@@ -470,8 +479,8 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
   self.last_mean = PoseStatistics();
   self.last_mean.mean = T_camera_centre;
   self.unseen_s = 0.0;
-  self.fit_is_poor = false;
-  self.poor_s = 0.0;
+  self.doubt.restart();
+  self.initialising_s = 0.0;
   self.is_blind = self.is_anywhere = false;
   self.reacquired_s = self.moved_s = kLongAgoS;
   self.calibration.restart();

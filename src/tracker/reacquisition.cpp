@@ -104,14 +104,19 @@ std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const Pin
 }
 
 std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const PinholeCamera& camera,
-                                              const Pose& T_camera_centre, const Vector6d& variances,
-                                              bool by_likelihood) {
+                                              const Pose& T_camera_centre, const OtherPoses& others) {
   constexpr double kSurer = 0.08, kElsewhereM = 0.01, kElsewhereRad = 0.2;
   finder_->setImage(depth, camera, std::max(0.2, T_camera_centre.translation().z()));
-  found_ = finder_->searchAround({T_camera_centre}, variances, kAround);
+  found_ = finder_->searchAround({T_camera_centre}, others.variances, kAround);
+  if (others.everywhere) {
+    const std::vector<FoundPose> more = finder_->searchEverywhere(kEverywhere);
+    found_.insert(found_.end(), more.begin(), more.end());
+    std::stable_sort(found_.begin(), found_.end(),
+                     [](const FoundPose& a, const FoundPose& b) { return a.quality > b.quality; });
+  }
   const FoundPose now = finder_->judge(T_camera_centre);
   constexpr double kExplainsMore = 1.1;
-  if (!found_.empty() && by_likelihood) {
+  if (!found_.empty() && others.by_likelihood) {
     const FoundPose& most = mostExplaining(found_);
     const bool is_better =
         most.quality > now.quality && most.assessment.log_likelihood > kExplainsMore * now.assessment.log_likelihood;
@@ -125,7 +130,7 @@ std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const
   if (found_.front().assessment.log_likelihood < now.assessment.log_likelihood) return std::nullopt;
   const Vector6d moved = difference(found_.front().T_camera_centre, T_camera_centre);
   if (moved.head<3>().norm() < kElsewhereM && moved.tail<3>().norm() < kElsewhereRad) return std::nullopt;
-  return finder_->settle(found_.front(), T_camera_centre, variances).T_camera_centre;
+  return finder_->settle(found_.front(), T_camera_centre, others.variances).T_camera_centre;
 }
 
 }  // namespace depth_object_tracker

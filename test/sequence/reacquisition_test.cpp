@@ -59,5 +59,52 @@ TEST_P(Reacquired, AnObjectThatIsSuddenlyElsewhereIsReportedLostAndFound) {
   EXPECT_LT(run.lastError(), 0.004);
 }
 
+/// An estimate that has gone astray: the tracker believes firmly in a wrong pose.
+class Astray : public testing::TestWithParam<const char*> {
+ protected:
+  /// @return images until the estimate is within 1 cm and stays there for three images; 0 = not within three seconds.
+  int imagesUntilFound(const Pose& believed) {
+    ScriptedScene scene(GetParam(), 6);
+    TrackingRun run(scene, restingPose());
+    Matrix6d covariance = Matrix6d::Identity();
+    covariance.diagonal().head<3>().setConstant(0.002 * 0.002);
+    covariance.diagonal().tail<3>().setConstant(0.02 * 0.02);
+    run.tracker().initialise(believed, covariance);
+    wrong_as_tracking_ = 0;
+    int right = 0;
+    for (int k = 1; k <= 90; ++k) {
+      run.step(restingPose());
+      right = run.lastError() < 0.01 ? right + 1 : 0;
+      wrong_as_tracking_ += right == 0 && run.result().state == TrackerState::kTracking ? 1 : 0;
+      if (right == 3) return k - 2;
+    }
+    return 0;
+  }
+
+  int wrong_as_tracking_ = 0;
+};
+INSTANTIATE_TEST_SUITE_P(Objects, Astray, testing::Values("drill", "mug", "bracket", "spatula"));
+
+TEST_P(Astray, DriftedByThreeCentimetresItComesBack) {
+  for (int axis = 0; axis < 3; ++axis) {
+    Pose believed = restingPose();
+    believed.translation()[axis] += 0.03;
+    const int images = imagesUntilFound(believed);
+    EXPECT_GT(images, 0) << "axis " << axis;
+    EXPECT_LE(images, 15) << "axis " << axis;
+    EXPECT_LE(wrong_as_tracking_, 10) << "axis " << axis;
+  }
+}
+
+TEST_P(Astray, TurnedByARightAngleItComesBack) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const Pose believed = movedBy(restingPose(), 0, 0, 0, M_PI_2 * Eigen::Vector3d::Unit(axis));
+    const int images = imagesUntilFound(believed);
+    EXPECT_GT(images, 0) << "axis " << axis;
+    EXPECT_LE(images, 60) << "axis " << axis;
+    EXPECT_LE(wrong_as_tracking_, 10) << "axis " << axis;
+  }
+}
+
 }  // namespace
 }  // namespace depth_object_tracker

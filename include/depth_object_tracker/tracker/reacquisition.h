@@ -18,6 +18,13 @@ struct SearchRegion {
   bool everywhere = false;                ///< is_known: also in the rest of the image
 };
 
+/// Which poses an estimate is compared with, and how.
+struct OtherPoses {
+  Vector6d variances = Vector6d::Ones();  ///< [m^2, rad^2] around the estimate
+  bool everywhere = false;                ///< also in the rest of the image
+  bool by_likelihood = false;             ///< what explains more of the image is better, not what fits better
+};
+
 class Reacquisition {
  public:
   explicit Reacquisition(std::unique_ptr<PoseFinder> finder) : finder_(std::move(finder)) {}
@@ -32,10 +39,9 @@ class Reacquisition {
   /// surer it must be.
   std::optional<Pose> search(const DepthImageView& depth, const PinholeCamera& camera, const SearchRegion& region);
 
-  /// Looks around an estimate that may be in the wrong place. @param by_likelihood the object was only just found: what
-  /// explains more of the image is better. @return a pose where the object is more surely seen.
+  /// @return a pose where the object is more surely seen than at an estimate that may be wrong.
   std::optional<Pose> findBetter(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre,
-                                 const Vector6d& variances, bool by_likelihood);
+                                 const OtherPoses& others);
 
   /// What the last search found, surest first.
   const std::vector<FoundPose>& found() const { return found_; }

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// When an estimate is to be compared with other poses of the image, which costs more than a frame: at once where it has
+// gone wrong, ever more rarely where it merely fits less than it could.
+#pragma once
+
+namespace depth_object_tracker {
+
+class Doubt {
+ public:
+  enum class Look { kNowhere, kAround, kEverywhere };
+
+  /// No doubt about a pose that was given.
+  void restart() { *this = Doubt(); }
+
+  /// One image. @param score 1 = as the sensor model expects. @param is_seen enough of the object is. @param dt_s since
+  /// the last image.
+  void update(double score, bool is_seen, double dt_s);
+
+  /// What the next image asks for.
+  Look look() const;
+  /// Tells that the whole image was looked at, in vain.
+  void lookedEverywhere();
+  /// What is seen fits worse than the sensor model expects: perhaps a neighbouring mode.
+  bool isPoor() const { return is_poor_; }
+  /// Since the fit was good [s].
+  double poorSince() const { return poor_s_; }
+
+ private:
+  bool is_poor_ = false, is_mediocre_ = false;
+  double poor_s_ = 0.0;
+  double since_look_s_ = 0.0;
+  double interval_s_ = 0.3;
+};
+
+}  // namespace depth_object_tracker

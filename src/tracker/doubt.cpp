@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_object_tracker/tracker/doubt.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace depth_object_tracker {
+namespace {
+
+constexpr double kPoorScore = 0.85, kMediocreScore = 0.92;
+constexpr double kPoorScoreOfLittle = 0.7, kPoorForS = 0.3;  // little that is seen often fits a little worse
+constexpr double kLookAroundForS = 1.0;                      // at every image; in vain: from time to time
+constexpr double kShortestIntervalS = 0.3, kLongestIntervalS = 8.0;
+
+}  // namespace
+
+void Doubt::update(double score, bool is_seen, double dt_s) {
+  poor_s_ = is_seen && score >= kPoorScore ? 0.0 : poor_s_ + dt_s;
+  const bool little_fits = !is_seen && score < kPoorScoreOfLittle && poor_s_ > kPoorForS;
+  is_poor_ = (is_seen && score < kPoorScore) || little_fits;
+  is_mediocre_ = is_poor_ || (is_seen && score < kMediocreScore);
+  since_look_s_ += dt_s;
+  if (!is_mediocre_) interval_s_ = std::max(kShortestIntervalS, interval_s_ * std::exp2(-dt_s));
+}
+
+Doubt::Look Doubt::look() const {
+  if (is_mediocre_ && since_look_s_ > interval_s_) return Look::kEverywhere;
+  return is_poor_ && poor_s_ < kLookAroundForS ? Look::kAround : Look::kNowhere;
+}
+
+void Doubt::lookedEverywhere() {
+  since_look_s_ = 0.0;
+  interval_s_ = std::min(kLongestIntervalS, 2.0 * interval_s_);
+}
+
+}  // namespace depth_object_tracker
