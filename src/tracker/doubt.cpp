@@ -8,17 +8,19 @@ namespace depth_object_tracker {
 namespace {
 
 constexpr double kPoorScore = 0.85, kMediocreScore = 0.92;
+constexpr double kPlainSight = 0.6;
 constexpr double kPoorScoreOfLittle = 0.7, kPoorForS = 0.3;  // little that is seen often fits a little worse
 constexpr double kLookAroundForS = 1.0;                      // at every image; in vain: from time to time
 constexpr double kShortestIntervalS = 0.3, kLongestIntervalS = 8.0;
 
 }  // namespace
 
-void Doubt::update(double score, bool is_seen, double dt_s) {
+void Doubt::update(double score, double visible_fraction, bool is_seen, double dt_s) {
   poor_s_ = is_seen && score >= kPoorScore ? 0.0 : poor_s_ + dt_s;
   const bool little_fits = !is_seen && score < kPoorScoreOfLittle && poor_s_ > kPoorForS;
   is_poor_ = (is_seen && score < kPoorScore) || little_fits;
-  is_mediocre_ = is_poor_ || (is_seen && score < kMediocreScore);
+  // What is half hidden may fit badly and be right, and the image is full of arms.
+  is_mediocre_ = is_seen && visible_fraction > kPlainSight && score < kMediocreScore;
   since_look_s_ += dt_s;
   if (!is_mediocre_) interval_s_ = std::max(kShortestIntervalS, interval_s_ * std::exp2(-dt_s));
 }

@@ -406,7 +406,7 @@ void ObjectTracker::Implementation::rememberFit(const FilterEstimate& estimate, 
   // A pose that had to be searched is not one that was followed.
   moved_s = status.state() == TrackerState::kInitializing ? 0.0 : moved_s + dt_s;
   last_mean = estimate.pose;
-  doubt.update(status.score(), seen, dt_s);
+  doubt.update(status.score(), status.visibleFraction(), seen, dt_s);
   initialising_s = status.state() == TrackerState::kInitializing ? initialising_s + dt_s : 0.0;
   const bool may_be_blind =
       mayReacquire() && (status.state() != TrackerState::kInitializing || initialising_s > kFitsWithinS);

@@ -115,11 +115,12 @@ std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const
                      [](const FoundPose& a, const FoundPose& b) { return a.quality > b.quality; });
   }
   const FoundPose now = finder_->judge(T_camera_centre);
-  constexpr double kExplainsMore = 1.1;
+  constexpr double kExplainsMore = 1.1, kExplainsMuchMore = 1.3;
   if (!found_.empty() && others.by_likelihood) {
     const FoundPose& most = mostExplaining(found_);
-    const bool is_better =
-        most.quality > now.quality && most.assessment.log_likelihood > kExplainsMore * now.assessment.log_likelihood;
+    const bool is_better = most.quality > now.quality + (others.everywhere ? kSurer : 0.0) &&
+                           most.assessment.log_likelihood >
+                               (others.everywhere ? kExplainsMuchMore : kExplainsMore) * now.assessment.log_likelihood;
     if (is_better) return most.T_camera_centre;
     return std::nullopt;
   }

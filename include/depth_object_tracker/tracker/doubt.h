@@ -12,9 +12,9 @@ class Doubt {
   /// No doubt about a pose that was given.
   void restart() { *this = Doubt(); }
 
-  /// One image. @param score 1 = as the sensor model expects. @param is_seen enough of the object is. @param dt_s since
+  /// One image. @param score 1 = as the sensor model expects. @param visible_fraction of the object. @param dt_s since
   /// the last image.
-  void update(double score, bool is_seen, double dt_s);
+  void update(double score, double visible_fraction, bool is_seen, double dt_s);
 
   /// What the next image asks for.
   Look look() const;
@@ -26,7 +26,7 @@ class Doubt {
   double poorSince() const { return poor_s_; }
 
  private:
-  bool is_poor_ = false, is_mediocre_ = false;
+  bool is_poor_ = false, is_mediocre_ = false;  // fits less than it could although it is in plain sight
   double poor_s_ = 0.0;
   double since_look_s_ = 0.0;
   double interval_s_ = 0.3;
