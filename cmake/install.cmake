@@ -23,7 +23,7 @@ if(WITH_ROS)
       RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
     install(TARGETS openni2_camera_node RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   endif()
-  catkin_install_python(PROGRAMS scripts/evaluate scripts/plot_benchmark scripts/play_bag scripts/relay_joint_commands scripts/slip_roc
+  catkin_install_python(PROGRAMS scripts/evaluate scripts/plot_benchmark scripts/play_bag scripts/relay_joint_commands scripts/slip_roc scripts/track_many
     DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   install(DIRECTORY scripts/evaluation DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION} FILES_MATCHING PATTERN *.py)
   if(TARGET track_icp)

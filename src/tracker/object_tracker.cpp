@@ -136,6 +136,7 @@ class ObjectTracker::Implementation {
   std::optional<Vector6d> initial_variances;  // set by initialise, used by the next image
   double full_resolution_pixels = 0.0;        // that the object covers
   double effort = 1.0;                        // of what is configured
+  KnownOccluders* known_occluders = nullptr;  // during an update
   PinholeCamera camera_in_use;
   TrackerResult result;
 
@@ -180,8 +181,10 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
   if (full_resolution_pixels <= 0.0) full_resolution_pixels = projectedPixels(camera);
   const SamplingGrid grid = makeSamplingGrid(camera, resolution.choose(full_resolution_pixels, std::sqrt(effort)));
   likelihood.setImage(depth, grid, time.dt_s);
-  if (occluders != nullptr && config.pixel.known_occluder_p_occluded > 0.0) {
-    likelihood.setOccluders(occluders->render(grid.camera));
+  known_occluders = config.pixel.known_occluder_p_occluded > 0.0 ? occluders : nullptr;
+  if (known_occluders != nullptr) {
+    likelihood.setOccluders(known_occluders->render(grid.camera));
+    likelihood.setTakenSurfaces(known_occluders->renderSeen(grid.camera));
   }
 
   if (is_blind && reacquire(depth, time.dt_s)) is_blind = false;
@@ -307,6 +310,7 @@ bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, doubl
   region.is_known = !is_anywhere;
   // As long as something in front explains why nothing is seen, the object is most likely still behind it.
   region.everywhere = status.state() == TrackerState::kLost || unseen_s > kSearchEverywhereAfterS;
+  region.occluders = known_occluders;
   const std::optional<Pose> found = reacquisition.search(depth, camera_in_use, region);
   if (!found) return false;
   startAt(*found);
@@ -321,9 +325,9 @@ bool ObjectTracker::Implementation::isDoubtful() const {
 
 bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth, const Pose& T_camera_centre) {
   const bool just_found = reacquired_s < kDoubtfulAfterFindS;
-  const std::optional<Pose> better =
-      reacquisition.findBetter(depth, camera_in_use, T_camera_centre,
-                               just_found ? anyTurnVariances() : searchVariances(kDoubtfulReachS), just_found);
+  const std::optional<Pose> better = reacquisition.findBetter(
+      depth, camera_in_use, T_camera_centre, just_found ? anyTurnVariances() : searchVariances(kDoubtfulReachS),
+      just_found, known_occluders);
   if (better) startAt(*better);
   return better.has_value();
 }

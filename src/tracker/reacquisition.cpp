@@ -77,7 +77,7 @@ bool Reacquisition::wasThereBefore(const Pose& T_camera_centre) const {
 
 std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const PinholeCamera& camera,
                                           const SearchRegion& region) {
-  finder_->setImage(depth, camera, std::max(0.2, region.T_camera_centre.translation().z()));
+  finder_->setImage(depth, camera, std::max(0.2, region.T_camera_centre.translation().z()), region.occluders);
   found_.clear();
   if (region.is_known) found_ = finder_->searchAround({region.T_camera_centre}, region.variances, kAround);
   const auto add = [this](const std::vector<FoundPose>& more) {
@@ -105,9 +105,9 @@ std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const Pin
 
 std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const PinholeCamera& camera,
                                               const Pose& T_camera_centre, const Vector6d& variances,
-                                              bool by_likelihood) {
+                                              bool by_likelihood, KnownOccluders* occluders) {
   constexpr double kSurer = 0.08, kElsewhereM = 0.01, kElsewhereRad = 0.2;
-  finder_->setImage(depth, camera, std::max(0.2, T_camera_centre.translation().z()));
+  finder_->setImage(depth, camera, std::max(0.2, T_camera_centre.translation().z()), occluders);
   found_ = finder_->searchAround({T_camera_centre}, variances, kAround);
   const FoundPose now = finder_->judge(T_camera_centre);
   constexpr double kExplainsMore = 1.1;

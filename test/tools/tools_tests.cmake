@@ -17,6 +17,14 @@ add_dependencies(track_sequence_test track_sequence)
 add_test(NAME troubleshooting_quotes_messages
   COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/check_troubleshooting ${PROJECT_SOURCE_DIR})
 
+add_test(NAME documentation_is_true
+  COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/check_documentation ${PROJECT_SOURCE_DIR})
+
+# The program of doc/core_api.md; check_install_tree builds it from the installed package, too.
+add_executable(follow_object ${PROJECT_SOURCE_DIR}/doc/example/follow_object.cpp)
+target_link_libraries(follow_object PRIVATE depth_object_tracker_core)
+add_test(NAME example_follows_the_object COMMAND follow_object ${PROJECT_SOURCE_DIR}/meshes/drill.obj)
+
 if(TARGET scene_to_bag)
   add_tracker_test(scene_to_bag_test
     SOURCES tools/scene_to_bag_test.cpp

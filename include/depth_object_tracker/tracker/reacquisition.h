@@ -16,6 +16,7 @@ struct SearchRegion {
   Vector6d variances = Vector6d::Ones();  ///< [m^2, rad^2]
   bool is_known = true;                   ///< false: anywhere in the image
   bool everywhere = false;                ///< is_known: also in the rest of the image
+  KnownOccluders* occluders = nullptr;    ///< the object is not where one of them is seen; null = none
 };
 
 class Reacquisition {
@@ -35,7 +36,7 @@ class Reacquisition {
   /// Looks around an estimate that may be in the wrong place. @param by_likelihood the object was only just found: what
   /// explains more of the image is better. @return a pose where the object is more surely seen.
   std::optional<Pose> findBetter(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre,
-                                 const Vector6d& variances, bool by_likelihood);
+                                 const Vector6d& variances, bool by_likelihood, KnownOccluders* occluders = nullptr);
 
   /// What the last search found, surest first.
   const std::vector<FoundPose>& found() const { return found_; }
