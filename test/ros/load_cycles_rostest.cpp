@@ -11,6 +11,7 @@
 #include <malloc.h>
 
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -88,6 +89,25 @@ TEST(LoadCycles, ObjectsThatAreExchangedLeaveNothing) {
   const Resources before = measure();
   for (int i = 0; i < kCycles; ++i) cycle();
   expectNoGrowth(before, "~load_object");
+}
+
+TEST(LoadCycles, ATrackerWithoutImagesUsesHardlyAnyProcessorTime) {
+  setGoodParameters("/load_cycles");
+  TrackerHarness tracker("/load_cycles");
+  ASSERT_TRUE(tracker.isReady());
+  const auto used_s = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
+  const double before_s = used_s();
+  ros::WallDuration(3.0).sleep();
+  EXPECT_LT(used_s() - before_s, 0.6) << "seconds of processor time in three seconds, of all threads";
+}
+
+TEST(LoadCycles, RelativePathsAreMeantFromTheGivenFolder) {
+  ros::param::set("/load_cycles_from/paths_from", std::string(PROJECT_SOURCE_FOLDER) + "/meshes");
+  ros::param::set("/load_cycles_from/mesh", "bracket.obj");
+  TrackerHarness tracker("/load_cycles_from");
+  ASSERT_TRUE(tracker.isReady());
+  EXPECT_TRUE(tracker.initialise());
+  EXPECT_EQ(tracker.status()->object_name, "bracket");
 }
 
 }  // namespace
