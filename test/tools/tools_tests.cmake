@@ -21,9 +21,12 @@ add_test(NAME documentation_is_true
   COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/check_documentation ${PROJECT_SOURCE_DIR})
 
 # The program of doc/core_api.md; check_install_tree builds it from the installed package, too.
-add_executable(follow_object ${PROJECT_SOURCE_DIR}/doc/example/follow_object.cpp)
-target_link_libraries(follow_object PRIVATE depth_object_tracker_core)
-add_test(NAME example_follows_the_object COMMAND follow_object ${PROJECT_SOURCE_DIR}/meshes/drill.obj)
+function(add_example_test name)
+  add_executable(${name} ${PROJECT_SOURCE_DIR}/doc/example/${name}.cpp)
+  target_link_libraries(${name} PRIVATE depth_object_tracker_core)
+  add_test(NAME example_${name} COMMAND ${name} ${ARGN})
+endfunction()
+add_example_test(follow_object ${PROJECT_SOURCE_DIR}/meshes/drill.obj)
 
 if(TARGET scene_to_bag)
   add_tracker_test(scene_to_bag_test
