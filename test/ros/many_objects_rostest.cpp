@@ -54,12 +54,15 @@ class ManyObjects : public testing::Test {
   }
 
   bool isReady() {
-    return waitUntil([&] {
-      for (const auto& object : *objects_) {
-        if (object->status.size() == 0) return false;
-      }
-      return images_.getNumSubscribers() == objects_->size() || images_.getNumSubscribers() == 1;
-    });
+    constexpr double kLoadingPatienceS = 300.0;  // four meshes, on a machine that may be busy
+    return waitUntil(
+        [&] {
+          for (const auto& object : *objects_) {
+            if (object->status.size() == 0) return false;
+          }
+          return images_.getNumSubscribers() > 0 && infos_.getNumSubscribers() > 0;
+        },
+        kLoadingPatienceS);
   }
 
   sensor_msgs::ImagePtr makeImage(const CrossingFrame& frame, const ros::Time& stamp) const {
