@@ -93,6 +93,26 @@ class ManyObjects : public testing::Test {
     });
   }
 
+  /// Publishes until every tracker sees the images: one may have subscribed later than another.
+  bool allSeeImages() {
+    const auto all_see = [&] {
+      for (const auto& object : *objects_) {
+        if (object->status.newest()->frames_received == 0) return false;
+      }
+      return true;
+    };
+    const CrossingFrame frame = scene_->render(0.0);
+    for (int i = 0; i < 300 && !all_see(); ++i) {
+      const ros::Time stamp(900.0 + i * kFrameS);
+      const auto info = makeCameraInfo(config_.camera);
+      info->header.stamp = stamp;
+      infos_.publish(info);
+      images_.publish(makeImage(frame, stamp));
+      waitUntil(all_see, 0.5);
+    }
+    return all_see();
+  }
+
   static bool initialise(const std::string& name, Pose pose) {
     pose.translation() += Eigen::Vector3d(0.003, -0.002, 0.003);
     InitializeTracker call;
@@ -112,7 +132,7 @@ std::vector<std::unique_ptr<Watched>>* ManyObjects::objects_ = nullptr;
 
 TEST_F(ManyObjects, EachIsFollowedByItsOwnTracker) {
   Recorder<visualization_msgs::MarkerArray> markers(node_, "/tracker/marker");
-  ASSERT_TRUE(isReady());
+  ASSERT_TRUE(isReady() && allSeeImages());
   for (std::size_t k = 0; k < objects_->size(); ++k) {
     ASSERT_TRUE(initialise((*objects_)[k]->name, scene_->truth(k, 0.0))) << (*objects_)[k]->name;
   }
