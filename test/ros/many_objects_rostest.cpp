@@ -21,6 +21,7 @@ namespace depth_object_tracker {
 namespace {
 
 constexpr double kFrameS = 1.0 / 30.0;
+constexpr double kStartS = 4.0;  // of the scene: from here on each is hidden by half at some time
 constexpr int kFrames = 150;
 
 struct Watched {
@@ -101,7 +102,7 @@ class ManyObjects : public testing::Test {
       }
       return true;
     };
-    const CrossingFrame frame = scene_->render(0.0);
+    const CrossingFrame frame = scene_->render(kStartS);
     for (int i = 0; i < 300 && !all_see(); ++i) {
       const ros::Time stamp(900.0 + i * kFrameS);
       const auto info = makeCameraInfo(config_.camera);
@@ -134,12 +135,12 @@ TEST_F(ManyObjects, EachIsFollowedByItsOwnTracker) {
   Recorder<visualization_msgs::MarkerArray> markers(node_, "/tracker/marker");
   ASSERT_TRUE(isReady() && allSeeImages());
   for (std::size_t k = 0; k < objects_->size(); ++k) {
-    ASSERT_TRUE(initialise((*objects_)[k]->name, scene_->truth(k, 0.0))) << (*objects_)[k]->name;
+    ASSERT_TRUE(initialise((*objects_)[k]->name, scene_->truth(k, kStartS))) << (*objects_)[k]->name;
   }
   std::vector<double> largest_m(objects_->size(), 0.0), least_visible(objects_->size(), 1.0);
   double frame_time_s = 0.0;
   for (int i = 0; i < kFrames; ++i) {
-    const CrossingFrame& frame = scene_->render(i * kFrameS);
+    const CrossingFrame& frame = scene_->render(kStartS + i * kFrameS);
     const ros::Time stamp(1000.0 + i * kFrameS);
     ASSERT_TRUE(send(frame, stamp)) << "image " << i;
     for (std::size_t k = 0; k < objects_->size(); ++k) {
