@@ -42,6 +42,7 @@ add_library(depth_object_tracker_core SHARED
   src/render/tile_rasterizer.cpp
   src/render/tile_renderer.cpp
   src/tracker/doubt.cpp
+  src/tracker/estimate_board.cpp
   src/tracker/frame_budget.cpp
   src/tracker/frame_clock.cpp
   src/tracker/input_check.cpp
@@ -51,6 +52,7 @@ add_library(depth_object_tracker_core SHARED
   src/tracker/object_model.cpp
   src/tracker/object_tracker.cpp
   src/tracker/oriented_points.cpp
+  src/tracker/other_objects.cpp
   src/tracker/parameter_binding.cpp
   src/tracker/pose_finder.cpp
   src/tracker/pose_search.cpp

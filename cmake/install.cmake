@@ -23,7 +23,7 @@ if(WITH_ROS)
       RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
     install(TARGETS openni2_camera_node RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   endif()
-  catkin_install_python(PROGRAMS scripts/evaluate scripts/plot_benchmark scripts/play_bag scripts/relay_joint_commands scripts/slip_roc
+  catkin_install_python(PROGRAMS scripts/evaluate scripts/plot_benchmark scripts/play_bag scripts/relay_joint_commands scripts/slip_roc scripts/track_many
     DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   install(DIRECTORY scripts/evaluation DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION} FILES_MATCHING PATTERN *.py)
   if(TARGET track_icp)
@@ -37,8 +37,13 @@ else()
   if(WITH_ROBOT)
     install(TARGETS depth_object_tracker_robot LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
   endif()
+  install(TARGETS depth_object_tracker_core EXPORT depth_object_tracker_targets
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(EXPORT depth_object_tracker_targets DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/${PROJECT_NAME})
+  install(FILES ${CMAKE_CURRENT_SOURCE_DIR}/cmake/depth_object_trackerConfig.cmake
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/${PROJECT_NAME})
   install(TARGETS
-    depth_object_tracker_core
     depth_object_tracker_simulator
     depth_object_tracker_tools
     simulate_scene

@@ -1,6 +1,7 @@
 # depth_object_tracker_simulator: a simulated depth camera; knows no ROS. simulate_scene writes its images as scene folders.
 add_library(depth_object_tracker_simulator SHARED
   src/simulator/arm.cpp
+  src/simulator/crossing_scene.cpp
   src/simulator/depth_sensor.cpp
   src/simulator/grasp_chooser.cpp
   src/simulator/hand_shapes.cpp

@@ -55,6 +55,7 @@ void assessPixel(const MeasuredPixel& pixel, float depth, float coverage, float 
   constexpr float kThroughStddevs = 6.0f;
   ++sum.measured_pixels;
   sum.through_pixels += (pixel.depth - depth) * pixel.inverse_stddev > kThroughStddevs ? 1 : 0;
+  if (pixel.visible_peak <= 0.0f) return;  // something else is seen there
   sum.visible_pixels += (1.0f - p_occluded) * ratios.surface / (visible + occluded);
   sum.achieved += not_occluded * std::log(total);
   // A visible pixel's log density has the mean of a Gaussian's: half a nat below its peak.
@@ -65,6 +66,7 @@ void assessPixel(const MeasuredPixel& pixel, float depth, float coverage, float 
 /// A table or board that is taken for one of the object's faces goes on beyond the outline; an object ends there.
 void assessSurroundings(const MeasuredPixel& pixel, float surface_depth, PoseAssessment& sum) {
   constexpr float kSameSurfaceStddevs = 4.0f;
+  if (pixel.visible_peak <= 0.0f) return;
   ++sum.surrounding_pixels;
   if (std::abs(pixel.depth - surface_depth) * pixel.inverse_stddev < kSameSurfaceStddevs) ++sum.continued_pixels;
 }

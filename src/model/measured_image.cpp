@@ -27,7 +27,7 @@ void MeasuredImage::setImage(const DepthImageView& view, const SamplingGrid& gri
   view_ = view;
   grid_ = grid;
   prepared_ = CellBox();
-  has_occluders_ = false;
+  has_occluders_ = has_taken_ = false;
   const CellBox padded = wholeTiles(imageBox());
   stride_ = static_cast<std::size_t>(padded.cols());
   const std::size_t num_cells = stride_ * static_cast<std::size_t>(padded.rows());
@@ -47,6 +47,17 @@ void MeasuredImage::setOccluders(const std::vector<float>& depth_m) {
       const float depth = depth_m[row * cols + col];
       if (depth > 0.0f) occluder_limit_[row * stride_ + col] = depth + margin;
     }
+  }
+}
+
+void MeasuredImage::setTakenSurfaces(const std::vector<float>& depth_m) {
+  const auto rows = static_cast<std::size_t>(grid_.camera.height), cols = static_cast<std::size_t>(grid_.camera.width);
+  has_taken_ = depth_m.size() == rows * cols;
+  if (!has_taken_) return;
+  taken_depth_.assign(depth_.size(), 0.0f);
+  for (std::size_t row = 0; row < rows; ++row) {
+    std::copy_n(depth_m.begin() + static_cast<std::ptrdiff_t>(row * cols), cols,
+                taken_depth_.begin() + static_cast<std::ptrdiff_t>(row * stride_));
   }
 }
 
@@ -76,6 +87,14 @@ void MeasuredImage::measureRow(int row, int col_begin, int col_end) {
   const auto count = static_cast<std::size_t>(std::max(0, col_end - col_begin));
   computeConstants(begin, count);
   if (model_.paper_occluder) computeFloor(begin, count);
+  if (has_taken_) excludeTaken(begin, count);
+}
+
+void MeasuredImage::excludeTaken(std::size_t begin, std::size_t count) {
+  for (std::size_t i = begin; i < begin + count; ++i) {
+    const float taken = taken_depth_[i];
+    if (taken > 0.0f && std::abs(depth_[i] - taken) < takenTolerance(taken, config_)) visible_peak_[i] = 0.0f;
+  }
 }
 
 // One loop without branches, for the compiler to vectorise. Pixels without a reading get numbers that nobody uses.
@@ -145,6 +164,11 @@ double MeasuredImage::validFraction() const {
     }
   }
   return static_cast<double>(valid) / total;
+}
+
+float takenTolerance(float depth_m, const PixelModelConfig& config) {
+  constexpr double kEstimateErrorM = 0.005, kNoiseStddevs = 4.0;
+  return static_cast<float>(kEstimateErrorM + kNoiseStddevs * cameraNoiseStddev(depth_m, config));
 }
 
 PixelRatios pixelRatios(const PixelModel& model, const MeasuredPixel& pixel, float rendered_depth_m) {

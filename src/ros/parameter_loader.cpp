@@ -73,6 +73,12 @@ void addParameters(XmlRpc::XmlRpcValue& map, const std::string& name, TrackerPar
   }
 }
 
+/// Relative paths, meant from a folder; absolute ones and URIs as they are.
+std::string pathFrom(const std::string& folder, const std::string& path) {
+  const bool is_relative = !path.empty() && path.front() != '/' && path.find("://") == std::string::npos;
+  return is_relative && !folder.empty() ? folder + "/" + path : path;
+}
+
 /// One sentence for each parameter right below the node that is not among `known`. Namespaces are left alone: they may
 /// be a plugin's.
 std::vector<std::string> findUnreadParameters(const ros::NodeHandle& node, const std::vector<std::string>& known) {
@@ -113,6 +119,7 @@ NodeletOptions loadNodeletOptions(const ros::NodeHandle& private_node) {
     known.push_back(key);
     readOption(private_node, key, expected, option, options.problems);
   };
+  read("paths_from", "the path of a folder", options.paths_from);
   read("object_file", "the path of an object's YAML file", options.object.object_file);
   read("object_name", "a word", options.object.name);
   read("mesh", "the path of a mesh", options.object.mesh);
@@ -128,9 +135,14 @@ NodeletOptions loadNodeletOptions(const ros::NodeHandle& private_node) {
   read("transform_wait_s", "a number (seconds)", options.frames.transform_wait_s);
   checkRange(private_node, "transform_wait_s", options.frames.transform_wait_s, 1.0, options.problems);
   read("marker_use_mesh_resource", "true or false", options.marker_use_mesh_resource);
+  read("share_estimates", "true or false", options.share_estimates);
   read("publish_debug", "true or false", options.publish_debug);
   read("control_wait_s", "a number (seconds)", options.control_wait_s);
   checkRange(private_node, "control_wait_s", options.control_wait_s, 1.0, options.problems);
+  for (std::string* path :
+       {&options.object.object_file, &options.object.mesh, &options.init_file, &options.last_pose_file}) {
+    *path = pathFrom(options.paths_from, *path);
+  }
   options.warnings = findUnreadParameters(private_node, known);
   return options;
 }

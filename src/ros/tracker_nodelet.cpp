@@ -74,11 +74,12 @@ void TrackerNodelet::start() {
 
   TrackerSession session(getName(), image_topic, info_topic, *tf_buffer_);
   session.setFrames(options.frames);
+  if (options.share_estimates) session.share(EstimateBoard::forImages(image_topic));
   const BuiltTracker built = buildFromParameters(options);
   session.setTracker(built);
   if (!options.last_pose_file.empty()) {
     pose_memory_ = std::make_unique<PoseMemory>(options.last_pose_file);
-    recallLastPose(built.name, session);
+    recallLastPose(options.last_pose_file, built.name, session);
   }
   const RobotOptions robot = loadRobotOptions(private_node);
   session.setRobot(buildRobot(robot, private_node, *tf_buffer_));
@@ -156,8 +157,7 @@ void TrackerNodelet::observe(const DiagnosticSnapshot& snapshot, const TrackerSe
 }
 
 /// Starts where the object was last time; ~init_file, where given, comes after and wins.
-void TrackerNodelet::recallLastPose(const std::string& object_name, TrackerSession& session) {
-  const std::string file = getPrivateNodeHandle().param<std::string>("last_pose_file", "");
+void TrackerNodelet::recallLastPose(const std::string& file, const std::string& object_name, TrackerSession& session) {
   std::string problem;
   InitialPose pose;
   const auto recalled = recallPose(file, object_name, problem);

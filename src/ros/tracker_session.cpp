@@ -37,6 +37,7 @@ TrackerSession::TrackerSession(const std::string& name, const std::string& image
 
 void TrackerSession::setTracker(BuiltTracker built) {
   object_ = std::move(built);
+  shared_mesh_ = object_.tracker ? std::make_shared<TriangleMesh>(object_.tracker->object().mesh) : nullptr;
   self_check_.restart();
   budget_ = FrameBudget(object_.tracker ? object_.tracker->config().budget : BudgetConfig());
   abandon("another object was loaded");
@@ -266,6 +267,7 @@ void TrackerSession::runTracker(FrameOutcome& outcome) {
   if (outcome.result.input == TrackerResult::Input::kUsed) {
     budget_.frameTook(std::chrono::duration<double>(Clock::now() - begin).count());
   }
+  if (sharing_) sharing_->tell(camera_frame_, outcome.result, shared_mesh_);
   if (is_restored) outcome.result.input = TrackerResult::Input::kTimeJumpedBack;
   outcome.processed = outcome.result.input != TrackerResult::Input::kDuplicateStamp;
   last_stamp_s_ = stamp_s;
@@ -280,8 +282,15 @@ void TrackerSession::runTracker(FrameOutcome& outcome) {
   answerWaiting(outcome);
 }
 
-/// The robot's links for this image; null where it is not known where they are.
+/// The robot's links and the other tracked objects for this image; null where there are none.
 KnownOccluders* TrackerSession::placeOccluders(double stamp_s) {
+  KnownOccluders* robot = placeRobot(stamp_s);
+  if (!sharing_) return robot;
+  return others_->place(sharing_->hear(camera_frame_), stamp_s, robot) > 0 ? others_.get() : nullptr;
+}
+
+/// The robot's links for this image; null where it is not known where they are.
+KnownOccluders* TrackerSession::placeRobot(double stamp_s) {
   if (held_motion_.occluder() == nullptr) return nullptr;
   const LinkInCamera root = held_motion_.robot()->locateRoot(camera_frame_, stamp_s);
   if (!root.problem.empty()) return nullptr;

@@ -143,6 +143,7 @@ class ObjectTracker::Implementation {
   std::optional<Vector6d> initial_variances;  // set by initialise, used by the next image
   double full_resolution_pixels = 0.0;        // that the object covers
   double effort = 1.0;                        // of what is configured
+  KnownOccluders* known_occluders = nullptr;  // during an update
   PinholeCamera camera_in_use;
   TrackerResult result;
 
@@ -191,8 +192,10 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
   if (full_resolution_pixels <= 0.0) full_resolution_pixels = projectedPixels(camera);
   const SamplingGrid grid = makeSamplingGrid(camera, resolution.choose(full_resolution_pixels, std::sqrt(effort)));
   likelihood.setImage(depth, grid, time.dt_s);
-  if (occluders != nullptr && config.pixel.known_occluder_p_occluded > 0.0) {
-    likelihood.setOccluders(occluders->render(grid.camera));
+  known_occluders = config.pixel.known_occluder_p_occluded > 0.0 ? occluders : nullptr;
+  if (known_occluders != nullptr) {
+    likelihood.setOccluders(known_occluders->render(grid.camera));
+    likelihood.setTakenSurfaces(known_occluders->renderSeen(grid.camera));
   }
 
   if (is_blind && reacquire(depth, time.dt_s)) is_blind = false;
@@ -321,6 +324,7 @@ bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, doubl
   // As long as something in front explains why nothing is seen, the object is most likely still behind it.
   region.everywhere = status.state() == TrackerState::kLost || status.state() == TrackerState::kInitializing ||
                       unseen_s > kSearchEverywhereAfterS;
+  region.occluders = known_occluders;
   const std::optional<Pose> found = reacquisition.search(depth, camera_in_use, region);
   if (!found) return false;
   startAt(*found);
@@ -339,6 +343,7 @@ bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth
   if (look == Doubt::Look::kNowhere) return false;
   const bool just_found = reacquired_s < kDoubtfulAfterFindS;
   OtherPoses others;
+  others.occluders = known_occluders;
   others.everywhere = look == Doubt::Look::kEverywhere;
   others.by_likelihood = just_found || others.everywhere;
   others.variances = just_found ? anyTurnVariances() : searchVariances(std::min(doubt.poorSince(), kDoubtfulReachS));

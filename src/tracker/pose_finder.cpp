@@ -56,9 +56,31 @@ PoseFinder::PoseFinder(const ObjectShape& shape, const TriangleMesh& mesh, doubl
       object_points_(objectPoints(mesh, shape.centre_object)),
       sparse_(object_points_, diameter_m),
       coarse_(shape, config, OcclusionChainConfig(), 1, pool_),
-      fine_(shape, config, OcclusionChainConfig(), 1, pool_) {}
+      fine_(shape, config, OcclusionChainConfig(), 1, pool_),
+      pixel_config_(config) {}
 
-void PoseFinder::setImage(const DepthImageView& depth, const PinholeCamera& camera, double distance_m) {
+/// Copies the image. What others hold is nothing to start a search from.
+DepthImageView PoseFinder::withoutTaken(KnownOccluders& occluders) {
+  const std::vector<float>& taken = occluders.renderSeen(camera_);
+  if (taken.empty()) return depth_;
+  free_depth_m_.resize(taken.size());
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    const float z = depth_.at(static_cast<int>(i) / camera_.width, static_cast<int>(i) % camera_.width);
+    const bool is_taken = taken[i] > 0.0f && std::abs(z - taken[i]) < takenTolerance(taken[i], pixel_config_);
+    free_depth_m_[i] = is_taken ? 0.0f : z;
+  }
+  DepthImageView view;
+  view.data = reinterpret_cast<const std::uint8_t*>(free_depth_m_.data());
+  view.width = camera_.width;
+  view.height = camera_.height;
+  view.step = sizeof(float) * static_cast<std::size_t>(camera_.width);
+  view.pixel_type = DepthImageView::PixelType::kFloat32;
+  view.unit_m = 1.0f;
+  return view;
+}
+
+void PoseFinder::setImage(const DepthImageView& depth, const PinholeCamera& camera, double distance_m,
+                          KnownOccluders* occluders) {
   constexpr double kStepPerDiameter = 0.06;
   depth_ = depth;
   camera_ = camera;
@@ -68,9 +90,14 @@ void PoseFinder::setImage(const DepthImageView& depth, const PinholeCamera& came
   coarse_.setImage(depth, makeSamplingGrid(camera, samplingFactor(camera, diameter_m_, distance_m, kCoarsePixels)),
                    0.0);
   fine_.setImage(depth, makeSamplingGrid(camera, samplingFactor(camera, diameter_m_, distance_m, kFinePixels)), 0.0);
+  if (occluders != nullptr) {
+    coarse_.setTakenSurfaces(occluders->renderSeen(coarse_.image().grid().camera));
+    fine_.setTakenSurfaces(occluders->renderSeen(fine_.image().grid().camera));
+    depth_ = withoutTaken(*occluders);
+  }
   coarse_.prepareWholeImage(kCoarseLevelErrorM);
   fine_.prepareWholeImage(kFineLevelErrorM);
-  sparse_.setImage(depth, camera);
+  sparse_.setImage(depth_, camera);
 }
 
 std::vector<FoundPose> PoseFinder::searchEverywhere(const SearchEffort& effort) {

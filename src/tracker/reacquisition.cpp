@@ -77,7 +77,7 @@ bool Reacquisition::wasThereBefore(const Pose& T_camera_centre) const {
 
 std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const PinholeCamera& camera,
                                           const SearchRegion& region) {
-  finder_->setImage(depth, camera, std::max(0.2, region.T_camera_centre.translation().z()));
+  finder_->setImage(depth, camera, std::max(0.2, region.T_camera_centre.translation().z()), region.occluders);
   found_.clear();
   if (region.is_known) found_ = finder_->searchAround({region.T_camera_centre}, region.variances, kAround);
   const auto add = [this](const std::vector<FoundPose>& more) {
@@ -106,7 +106,7 @@ std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const Pin
 std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const PinholeCamera& camera,
                                               const Pose& T_camera_centre, const OtherPoses& others) {
   constexpr double kSurer = 0.08, kElsewhereM = 0.01, kElsewhereRad = 0.2;
-  finder_->setImage(depth, camera, std::max(0.2, T_camera_centre.translation().z()));
+  finder_->setImage(depth, camera, std::max(0.2, T_camera_centre.translation().z()), others.occluders);
   found_ = finder_->searchAround({T_camera_centre}, others.variances, kAround);
   if (others.everywhere) {
     const std::vector<FoundPose> more = finder_->searchEverywhere(kEverywhere);

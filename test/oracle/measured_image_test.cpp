@@ -14,7 +14,8 @@ namespace {
 /// A row of float readings as a MeasuredImage sees them.
 class RowImage {
  public:
-  RowImage(std::vector<float> readings, const PixelModelConfig& config)
+  /// @param taken surfaces of other things that are seen; empty = none.
+  RowImage(std::vector<float> readings, const PixelModelConfig& config, const std::vector<float>& taken = {})
       : readings_(std::move(readings)), image_(config) {
     PinholeCamera camera;
     camera.width = static_cast<int>(readings_.size());
@@ -28,6 +29,7 @@ class RowImage {
     view.pixel_type = DepthImageView::PixelType::kFloat32;
     view.unit_m = 1.0f;
     image_.setImage(view, makeSamplingGrid(camera, 1));
+    image_.setTakenSurfaces(taken);
     image_.prepare(image_.imageBox());
   }
 
@@ -130,6 +132,17 @@ TEST(MeasuredImage, WhatIsBehindAKnownOccluderCountsAsOccludedRatherThanNot) {
   RowImage off({0.0f, 1.0f, 1.0f}, config);
   off.setOccluders({0.9f, 0.9f, 0.0f});
   EXPECT_EQ(off.believedOcclusion(0.1f, 1, 1.0f), 0.1f);
+}
+
+TEST(MeasuredImage, AReadingOnSomethingElsesSurfaceIsNotTheObjects) {
+  const PixelModelConfig config;
+  const RowImage free({1.0f, 1.0f, 1.0f}, config), taken({1.0f, 1.0f, 1.0f}, config, {1.003f, 1.1f, 0.0f});
+  EXPECT_EQ(taken.pixel(0).visible_peak, 0.0f);
+  EXPECT_EQ(taken.ratios(0, 1.0f).surface, 0.0f);
+  EXPECT_LT(taken.ratios(0, 1.0f).visible, 0.1f) << "no reward for an object in the same place";
+  EXPECT_NEAR(taken.ratios(0, 1.2f).occluded, free.ratios(0, 1.2f).occluded, 1e-6f) << "behind it: occluded as ever";
+  EXPECT_NEAR(taken.ratios(0, 0.8f).visible, free.ratios(0, 0.8f).visible, 1e-6f) << "before it: seen through as ever";
+  for (const int col : {1, 2}) EXPECT_EQ(taken.pixel(col).visible_peak, free.pixel(col).visible_peak);
 }
 
 TEST(MeasuredImage, TheFloorOfTheBeliefRisesOverItsRamp) {

@@ -5,10 +5,12 @@
 Usage: check_launch_files.py LAUNCH_FOLDER README
 Needs a sourced devel or install space.
 """
+import os
 import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 import xml.etree.ElementTree as ElementTree
 
 LEAST_WORDS = 1
@@ -43,6 +45,17 @@ def check_ros_args(launch, names):
             yield f"roslaunch --ros-args does not list '{name}': {text}"
 
 
+def check_relative_paths(launch, names):
+    """A path that is given as a name means the file where roslaunch was called."""
+    given = [f"{name}:=here.yaml" for name in names if name in ("object", "objects", "bag")]
+    with tempfile.TemporaryDirectory() as folder:
+        answer = subprocess.run(["roslaunch", "--dump-params", str(launch), *given], cwd=folder,
+                                env={**os.environ, "PWD": folder}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                text=True, check=False, timeout=60)
+        if f"/paths_from: {folder}" not in answer.stdout:
+            yield f"relative paths are not meant from the working folder: {answer.stdout}"
+
+
 def problems_of(launch, rows):
     arguments = arguments_of(launch)
     names = [argument.attrib["name"] for argument in arguments]
@@ -52,6 +65,7 @@ def problems_of(launch, rows):
     if not launch.read_text(encoding="utf-8").lstrip().startswith("<!--"):
         yield "does not begin with a comment that says what it does"
     yield from check_ros_args(launch, names)
+    yield from check_relative_paths(launch, names)
     row = rows.get(launch.name)
     if row is None:
         yield "has no row in the README's table of launch files"
@@ -64,7 +78,7 @@ def problems_of(launch, rows):
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    launch_files = sorted(pathlib.Path(sys.argv[1]).glob("*.launch"))
+    launch_files = sorted(pathlib.Path(sys.argv[1]).resolve().glob("*.launch"))
     rows = readme_rows(pathlib.Path(sys.argv[2]))
     problems = [f"{launch.name}: {problem}" for launch in launch_files for problem in problems_of(launch, rows)]
     problems += [f"README: there is no {name}" for name in rows if name not in {launch.name for launch in launch_files}]

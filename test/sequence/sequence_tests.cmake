@@ -6,6 +6,7 @@ add_tracker_test(tracker_sequence_tests
     sequence/input_test.cpp
     sequence/live_parameters_test.cpp
     sequence/look_alikes_test.cpp
+    sequence/many_objects_test.cpp
     sequence/motion_test.cpp
     sequence/reacquisition_test.cpp
     sequence/scripted_scene.cpp

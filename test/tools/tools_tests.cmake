@@ -17,6 +17,17 @@ add_dependencies(track_sequence_test track_sequence)
 add_test(NAME troubleshooting_quotes_messages
   COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/check_troubleshooting ${PROJECT_SOURCE_DIR})
 
+add_test(NAME documentation_is_true
+  COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/check_documentation ${PROJECT_SOURCE_DIR})
+
+# The program of doc/core_api.md; check_install_tree builds it from the installed package, too.
+function(add_example_test name)
+  add_executable(${name} ${PROJECT_SOURCE_DIR}/doc/example/${name}.cpp)
+  target_link_libraries(${name} PRIVATE depth_object_tracker_core)
+  add_test(NAME example_${name} COMMAND ${name} ${ARGN})
+endfunction()
+add_example_test(follow_object ${PROJECT_SOURCE_DIR}/meshes/drill.obj)
+
 if(TARGET scene_to_bag)
   add_tracker_test(scene_to_bag_test
     SOURCES tools/scene_to_bag_test.cpp

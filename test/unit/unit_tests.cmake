@@ -11,6 +11,7 @@ add_tracker_test(input_check_unit_tests SOURCES unit/input_check_test.cpp)
 add_tracker_test(parameter_unit_tests SOURCES
   unit/object_model_test.cpp
   unit/tracker_parameters_test.cpp)
+add_tracker_test(estimate_board_unit_tests SOURCES unit/estimate_board_test.cpp)
 add_tracker_test(filter_unit_tests SOURCES
   unit/filter_calibration_test.cpp
   unit/filter_occlusion_tiles_test.cpp

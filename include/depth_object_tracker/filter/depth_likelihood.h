@@ -61,6 +61,7 @@ class DepthLikelihood : public PoseLikelihood {
   void prepareWholeImage(double level_error_m);
   /// Known occluders for this image; see MeasuredImage.
   void setOccluders(const std::vector<float>& depth_m) { image_.setOccluders(depth_m); }
+  void setTakenSurfaces(const std::vector<float>& depth_m) { image_.setTakenSurfaces(depth_m); }
 
   /// Forgets all beliefs about occlusion.
   void resetOcclusion() { memory_.reset(); }

@@ -19,12 +19,12 @@ constexpr float kNoOccluder = std::numeric_limits<float>::max();
 
 /// Constants of one measured pixel; densities as ratios to missDensity (see pixel_likelihood.h).
 struct MeasuredPixel {
-  float depth = 0.0f;                  ///< [m]; 0 = no reading
-  float inverse_stddev = 0.0f;         ///< 1 / surfaceNoiseStddev [1/m]
-  float visible_peak = 0.0f;           ///< Gaussian part of the visible ratio at d = z
-  float tail = 0.0f;                   ///< uniform part of every ratio; an occluder far in front makes up the rest to 1
-  float occluded_shift = 0.0f;         ///< shift of the occluder's step, in standard deviations
-  float occluded_floor = 0.0f;         ///< paper's second Phi (readings near the lens); 0 for the consistent model
+  float depth = 0.0f;           ///< [m]; 0 = no reading
+  float inverse_stddev = 0.0f;  ///< 1 / surfaceNoiseStddev [1/m]
+  float visible_peak = 0.0f;    ///< Gaussian part of the visible ratio at d = z; 0 = something else is seen there
+  float tail = 0.0f;            ///< uniform part of every ratio; an occluder far in front makes up the rest to 1
+  float occluded_shift = 0.0f;  ///< shift of the occluder's step, in standard deviations
+  float occluded_floor = 0.0f;  ///< paper's second Phi (readings near the lens); 0 for the consistent model
   float occluder_limit = kNoOccluder;  ///< [m] an object farther away than this is behind a known occluder
 };
 
@@ -72,6 +72,10 @@ class MeasuredImage {
   /// @param depth_m of the nearest one for each cell of the grid, row-major; 0 = none. Another size is ignored.
   void setOccluders(const std::vector<float>& depth_m);
 
+  /// Surfaces of other things that are seen in this frame, after setImage() and before prepare(): a reading on one of
+  /// them is not the object's, but an occluder's or, before it, free space. @param depth_m as above.
+  void setTakenSurfaces(const std::vector<float>& depth_m);
+
   /// Makes pixels in `box`, grown to whole tiles, available; grows the region only. Not thread-safe.
   void prepare(const CellBox& box);
 
@@ -96,6 +100,7 @@ class MeasuredImage {
   void measureRow(int row, int col_begin, int col_end);
   void computeConstants(std::size_t begin, std::size_t count);
   void computeFloor(std::size_t begin, std::size_t count);
+  void excludeTaken(std::size_t begin, std::size_t count);
 
   PixelModelConfig config_;
   PixelModel model_;
@@ -103,9 +108,13 @@ class MeasuredImage {
   SamplingGrid grid_;
   CellBox prepared_;
   std::size_t stride_ = 0;
-  AlignedVector<float> depth_, inverse_stddev_, visible_peak_, tail_, occluded_shift_, occluded_floor_, occluder_limit_;
-  bool has_occluders_ = false;
+  AlignedVector<float> depth_, inverse_stddev_, visible_peak_, tail_, occluded_shift_, occluded_floor_, occluder_limit_,
+      taken_depth_;
+  bool has_occluders_ = false, has_taken_ = false;
 };
+
+/// How far [m] a reading may be from a surface that is seen there: estimate's error and the sensor's noise.
+float takenTolerance(float depth_m, const PixelModelConfig& config);
 
 /// Ratios of a pixel with a reading.
 PixelRatios pixelRatios(const PixelModel& model, const MeasuredPixel& pixel, float rendered_depth_m);

@@ -15,6 +15,13 @@ class KnownOccluders {
 
   /// Depth [m] of the nearest of them for each pixel of the camera, row-major; 0 = none. Valid until the next call.
   virtual const std::vector<float>& render(const PinholeCamera& camera) = 0;
+
+  /// Of those that are seen where they are thought to be, within millimetres: depth as above. What is measured there
+  /// is theirs, and nobody else's. Empty = none of them. Valid until the next call.
+  virtual const std::vector<float>& renderSeen(const PinholeCamera& /*camera*/) { return nothing_; }
+
+ private:
+  std::vector<float> nothing_;
 };
 
 }  // namespace depth_object_tracker

@@ -34,6 +34,7 @@ struct ObjectSource {
 
 struct NodeletOptions {
   ObjectSource object;
+  std::string paths_from;          ///< folder that relative paths of files below are meant from; empty = the process's
   std::string init_file;           ///< JSON pose at start; empty = wait to be told
   std::string last_pose_file;      ///< the last good pose is kept there and taken up again; empty = not
   bool interactive_marker = true;  ///< the mesh in rviz, to be dragged to the object
@@ -42,6 +43,7 @@ struct NodeletOptions {
   bool publish_diagnostics = true;
   FrameOptions frames;
   bool marker_use_mesh_resource = false;  ///< rviz loads the mesh file itself, instead of a triangle list
+  bool share_estimates = true;            ///< with the other trackers of this process on the same images
   bool publish_debug = false;             ///< ~debug/last_image_address
   double control_wait_s = 0.02;           ///< longest wait for the control twist that belongs to an image
   std::vector<std::string> problems;      ///< as in TrackerParameters

@@ -11,6 +11,7 @@
 #include "depth_object_tracker/ros/object_source.h"
 #include "depth_object_tracker/ros/self_check.h"
 #include "depth_object_tracker/ros/throttled_log.h"
+#include "depth_object_tracker/tracker/estimate_board.h"
 #include "depth_object_tracker/tracker/frame_budget.h"
 
 #include <depth_object_tracker/Grasp.h>
@@ -56,6 +57,10 @@ class TrackerSession {
                  tf2::BufferCore& tf);
 
   void setFrames(const FrameOptions& frames) { frames_ = frames; }
+
+  /// From now on the trackers on this board know of one another: a nearer object is a known occluder of a farther one,
+  /// and none is taken for another.
+  void share(std::shared_ptr<EstimateBoard> board) { sharing_ = std::make_unique<BoardMembership>(std::move(board)); }
 
   /// Takes a new object (or the problem that there is none), forgetting the old one's pose.
   void setTracker(BuiltTracker built);
@@ -137,6 +142,7 @@ class TrackerSession {
   void runTracker(FrameOutcome& outcome);
   void detectGrasp(const FrameOutcome& outcome);
   void describeHand(FrameOutcome& outcome);
+  KnownOccluders* placeRobot(double stamp_s);
   KnownOccluders* placeOccluders(double stamp_s);
   void reportInput(FrameOutcome& outcome, bool is_restored);
   void answerWaiting(const FrameOutcome& outcome);
@@ -147,6 +153,9 @@ class TrackerSession {
   Intrinsics intrinsics_;
   tf2::BufferCore& tf_;
   FrameOptions frames_;
+  std::unique_ptr<BoardMembership> sharing_;  // null: nothing is told or heard
+  std::shared_ptr<const TriangleMesh> shared_mesh_;
+  std::unique_ptr<OtherObjects> others_ = std::make_unique<OtherObjects>();
   std::optional<Pose> T_fixed_camera_;  // at the last image that the tracker saw
   ThrottledLog log_;
   SelfCheck self_check_;

@@ -5,6 +5,7 @@
 #include "depth_object_tracker/filter/depth_likelihood.h"
 #include "depth_object_tracker/filter/likelihood_climb.h"
 #include "depth_object_tracker/filter/random.h"
+#include "depth_object_tracker/render/known_occluders.h"
 #include "depth_object_tracker/tracker/oriented_points.h"
 #include "depth_object_tracker/tracker/sparse_fit.h"
 
@@ -39,8 +40,9 @@ class PoseFinder {
              std::uint64_t seed, std::shared_ptr<WorkerPool> pool);
 
   /// A new image; the view must stay valid until the last search in it. @param distance_m at which the object is
-  /// expected, for the resolutions.
-  void setImage(const DepthImageView& depth, const PinholeCamera& camera, double distance_m);
+  /// expected, for the resolutions. @param occluders null = none are known; used only during the call.
+  void setImage(const DepthImageView& depth, const PinholeCamera& camera, double distance_m,
+                KnownOccluders* occluders = nullptr);
 
   /// Looks everywhere in the image. The best pose first.
   std::vector<FoundPose> searchEverywhere(const SearchEffort& effort);
@@ -60,6 +62,7 @@ class PoseFinder {
     Pose pose;
     double quality;
   };
+  DepthImageView withoutTaken(KnownOccluders& occluders);
   Pose drawAnywhere(std::uint64_t number) const;
   template <typename Draw>
   std::vector<Pose> drawBest(const SearchEffort& effort, const Draw& draw);
@@ -78,6 +81,8 @@ class PoseFinder {
   SparseFit sparse_;
   DepthLikelihood coarse_, fine_;
   DepthImageView depth_;
+  std::vector<float> free_depth_m_;  // where something else is seen there is no reading
+  PixelModelConfig pixel_config_;
   PinholeCamera camera_;
   int step_px_ = 1;
   std::uint64_t drawn_ = 0;

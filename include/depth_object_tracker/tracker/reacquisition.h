@@ -16,6 +16,7 @@ struct SearchRegion {
   Vector6d variances = Vector6d::Ones();  ///< [m^2, rad^2]
   bool is_known = true;                   ///< false: anywhere in the image
   bool everywhere = false;                ///< is_known: also in the rest of the image
+  KnownOccluders* occluders = nullptr;    ///< the object is not where one of them is seen; null = none
 };
 
 /// Which poses an estimate is compared with, and how.
@@ -23,6 +24,7 @@ struct OtherPoses {
   Vector6d variances = Vector6d::Ones();  ///< [m^2, rad^2] around the estimate
   bool everywhere = false;                ///< also in the rest of the image
   bool by_likelihood = false;             ///< what explains more of the image is better, not what fits better
+  KnownOccluders* occluders = nullptr;    ///< the object is not where one of them is seen; null = none
 };
 
 class Reacquisition {
