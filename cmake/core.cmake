@@ -13,6 +13,7 @@ add_library(depth_object_tracker_core SHARED
   src/filter/tile_fit.cpp
   src/filter/tile_likelihood.cpp
   src/filter/worker_pool.cpp
+  src/geometry/convex_hull.cpp
   src/geometry/edge_collapse.cpp
   src/geometry/level_of_detail.cpp
   src/geometry/mesh_file_check.cpp
@@ -24,6 +25,7 @@ add_library(depth_object_tracker_core SHARED
   src/geometry/pose.cpp
   src/geometry/shape_meshes.cpp
   src/geometry/simd_target.cpp
+  src/geometry/stable_poses.cpp
   src/geometry/surface_distance.cpp
   src/geometry/symmetry.cpp
   src/geometry/triangle_mesh.cpp
