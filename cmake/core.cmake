@@ -50,12 +50,14 @@ add_library(depth_object_tracker_core SHARED
   src/tracker/object_tracker.cpp
   src/tracker/oriented_points.cpp
   src/tracker/parameter_binding.cpp
+  src/tracker/plane_finder.cpp
   src/tracker/pose_finder.cpp
   src/tracker/pose_search.cpp
   src/tracker/reacquisition.cpp
   src/tracker/resolution.cpp
   src/tracker/sparse_fit.cpp
   src/tracker/status_monitor.cpp
+  src/tracker/table_draws.cpp
   src/tracker/tracker_config_file.cpp
   src/tracker/tracker_parameters.cpp
   src/tracker/tracker_result.cpp

@@ -22,9 +22,9 @@ std::vector<Eigen::Vector3d> outermostPoints(const TriangleMesh& mesh, const Eig
     const double z = 1.0 - 2.0 * (k + 0.5) / kDirections, radius = std::sqrt(1.0 - z * z);
     const Eigen::Vector3f direction(static_cast<float>(radius * std::cos(k * golden_angle)),
                                     static_cast<float>(radius * std::sin(k * golden_angle)), static_cast<float>(z));
-    const auto farthest = std::max_element(mesh.vertices.begin(), mesh.vertices.end(), [&](const auto& a, const auto& b) {
-      return a.dot(direction) < b.dot(direction);
-    });
+    const auto farthest =
+        std::max_element(mesh.vertices.begin(), mesh.vertices.end(),
+                         [&](const auto& a, const auto& b) { return a.dot(direction) < b.dot(direction); });
     chosen.push_back(static_cast<std::size_t>(farthest - mesh.vertices.begin()));
   }
   std::sort(chosen.begin(), chosen.end());
@@ -58,8 +58,8 @@ class TippingHull {
     return solidAngle(at(corner(face, 0)), at(corner(face, 1)), at(corner(face, 2))) / (4.0 * M_PI);
   }
 
-  /// The face on which the object comes to rest from this one: it tips over the edge that the centre is farthest beyond,
-  /// and its height falls with each.
+  /// The face on which the object comes to rest from this one: it tips over the edge that the centre is farthest
+  /// beyond, and its height falls with each.
   std::size_t restingFace(std::size_t face) const {
     for (std::size_t step = 0; step < faces_.size(); ++step) {
       double farthest = 0.0;

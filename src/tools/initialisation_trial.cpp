@@ -42,10 +42,18 @@ void start(ObjectTracker& tracker, const TrialFrame& frame, InitialisationMode m
       return tracker.initialise(displaced(frame.T_camera_object_kinematics, centre, kGraspErrorM * random.unitVector(),
                                           kGraspErrorRad * random.unitVector()));
     case InitialisationMode::kOnTable:
-      return tracker.initialiseAnywhere();
+      return tracker.initialiseOnTable();
     case InitialisationMode::kGlobal:
       return tracker.initialiseAnywhere();
   }
+}
+
+bool isTable(const std::optional<ImagePlane>& plane, const TrialScene& scene) {
+  constexpr double kSameM = 0.01, kSameCosine = 0.9994;  // 2 degrees
+  if (!plane || plane->normal.dot(scene.table_normal) < kSameCosine) return false;
+  // Where the object is: the planes may cross elsewhere.
+  const Eigen::Vector3d p = scene.frames.front().T_camera_object.translation();
+  return std::abs(plane->heightOf(p) - (scene.table_normal.dot(p) - scene.table_offset_m)) < kSameM;
 }
 
 }  // namespace
@@ -76,9 +84,11 @@ TrialOutcome runTrial(ObjectTracker& tracker, const PoseErrorMeter& meter, const
     view.width = scene.camera.width;
     view.height = scene.camera.height;
     view.step = static_cast<std::size_t>(view.width) * sizeof(std::uint16_t);
+    const bool is_first = k == 0;
     const double begin_s = processorSeconds();
     const TrackerResult result = tracker.update(view, scene.camera, frame.stamp_s);
     spent_s += processorSeconds() - begin_s;
+    if (is_first && mode == InitialisationMode::kOnTable) outcome.plane_found = isTable(tracker.table(), scene);
     const PoseError error = meter.measure(result.T_camera_object, frame.T_camera_object);
     const bool is_tracking = result.has_pose && result.state == TrackerState::kTracking;
     outcome.add_m = result.has_pose ? error.adds_m : -1.0;  // = ADD where no symmetry is declared

@@ -20,8 +20,8 @@ const char* modeName(InitialisationMode mode);
 struct TrialOutcome {
   int frames = 0;          ///< until the estimate was right, and stayed so for three frames; 0: it never was
   double compute_s = 0.0;  ///< processor time of all threads until then, or of all frames
-  double add_m = 0.0;      ///< ADD (ADD-S where symmetries are declared) in the last frame that was looked at; -1: no pose
-  int wrong_frames = 0;    ///< TRACKING with an error over 2 cm
+  double add_m = 0.0;  ///< ADD (ADD-S where symmetries are declared) in the last frame that was looked at; -1: no pose
+  int wrong_frames = 0;     ///< TRACKING with an error over 2 cm
   bool plane_found = true;  ///< ON_TABLE: the table's plane was found (1 cm, 2 degrees)
 };
 

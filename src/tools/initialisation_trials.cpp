@@ -2,13 +2,14 @@
 // Command line: how often the tracker finds an object at the start, for every way of starting it.
 #include "tools/initialisation_trial.h"
 
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <optional>
@@ -40,7 +41,7 @@ InitialisationMode modeFromName(const std::string& name) {
 dot::ObjectModel loadAnyObject(const std::string& file) {
   if (file.size() > 5 && file.substr(file.size() - 5) == ".yaml") {
     return dot::loadObject(dot::loadObjectDescription(file), [&](const std::string&) {
-      return file.substr(0, std::max<std::size_t>(file.rfind("/config/"), 1));
+      return std::filesystem::absolute(file).parent_path().parent_path().parent_path().string();
     });
   }
   dot::ObjectModel object;
@@ -69,14 +70,13 @@ void runBlocks(const Options& options, const dot::ObjectModel& object, Initialis
   dot::ObjectTracker tracker(object, config);
   const dot::PoseErrorMeter meter(object.mesh, object.symmetries);
   const bool on_table = mode == InitialisationMode::kOnTable;
-  const dot::Scenario scenario =
-      mode == InitialisationMode::kInHand ? dot::Scenario::kRobot : dot::Scenario::kHuman;
+  const dot::Scenario scenario = mode == InitialisationMode::kInHand ? dot::Scenario::kRobot : dot::Scenario::kHuman;
   for (int first = job * kTrialsPerScene; first < options.trials; first += options.jobs * kTrialsPerScene) {
     std::optional<dot::HeldScenes> held;
     if (!on_table) held.emplace(object, scenario, trialSeed(options, first));
     for (int trial = first; trial < std::min(options.trials, first + kTrialsPerScene); ++trial) {
-      const dot::TrialScene scene = held ? held->next(options.frames)
-                                         : dot::makeTableScene(object, options.frames, trialSeed(options, trial));
+      const dot::TrialScene scene =
+          held ? held->next(options.frames) : dot::makeTableScene(object, options.frames, trialSeed(options, trial));
       const auto outcome = dot::runTrial(tracker, meter, scene, mode, trialSeed(options, trial));
       std::fprintf(out, "%s\n", toJson(trial, outcome).dump().c_str());
       std::fflush(out);
@@ -155,8 +155,8 @@ nlohmann::json summarise(const nlohmann::json& trials) {
 
 void run(const Options& options) {
   nlohmann::json report;
-  std::printf("%-22s %-9s %6s %8s %8s %7s %6s %7s %7s %7s %7s\n", "object", "mode", "trials", "success", "in 4 s", "wrong",
-              "plane", "frames", "90 %", "proc s", "90 %");
+  std::printf("%-22s %-9s %6s %8s %8s %7s %6s %7s %7s %7s %7s\n", "object", "mode", "trials", "success", "in 4 s",
+              "wrong", "plane", "frames", "90 %", "proc s", "90 %");
   for (const std::string& file : options.objects) {
     const dot::ObjectModel object = loadAnyObject(file);
     for (const std::string& name : options.modes) {
@@ -183,10 +183,14 @@ int main(int argc, char** argv) {
   app.add_option("objects", options.objects, "object YAMLs, or meshes in metres")->required();
   app.add_option("--modes", options.modes, "FROM_POSE, ON_TABLE, IN_HAND, GLOBAL")->delimiter(',');
   app.add_option("--trials", options.trials, "per object and mode")->check(CLI::PositiveNumber)->capture_default_str();
-  app.add_option("--frames", options.frames, "that a trial may take")->check(CLI::Range(3, 1000))->capture_default_str();
+  app.add_option("--frames", options.frames, "that a trial may take")
+      ->check(CLI::Range(3, 1000))
+      ->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
   app.add_option("--jobs", options.jobs, "processes")->check(CLI::Range(1, 256))->capture_default_str();
-  app.add_option("--num-threads", options.num_threads, "of each tracker")->check(CLI::Range(1, 64))->capture_default_str();
+  app.add_option("--num-threads", options.num_threads, "of each tracker")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
   app.add_option("--json", options.json, "file for all trials");
   try {
     app.parse(argc, argv);

@@ -59,9 +59,8 @@ Pose placeOnTable(const ObjectModel& object, const SimulationConfig& config, Ran
   for (int k = 0; k < kTrials; ++k) {
     const StablePose& rest = drawRest(rests, random.uniform());
     Pose T_world_object = Pose::Identity();
-    T_world_object.linear() =
-        expSo3(random.uniform(0.0, 2.0 * M_PI) * Eigen::Vector3d::UnitZ()) *
-        Eigen::Quaterniond::FromTwoVectors(rest.up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    T_world_object.linear() = expSo3(random.uniform(0.0, 2.0 * M_PI) * Eigen::Vector3d::UnitZ()) *
+                              Eigen::Quaterniond::FromTwoVectors(rest.up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     T_world_object.translation() =
         Eigen::Vector3d(random.uniform(0.4, 0.95), random.uniform(-0.4, 0.4), rest.height_m) -
         T_world_object.linear() * centre;
@@ -115,6 +114,9 @@ TrialScene makeTableScene(const ObjectModel& object, int num_frames, std::uint64
   DepthSensor sensor(config.sensor, camera, seed);
   TrialScene scene;
   scene.camera = camera;
+  const Pose T_camera_world = makeCameraMount(config).T_world_camera().inverse();
+  scene.table_normal = T_camera_world.linear().col(2);
+  scene.table_offset_m = scene.table_normal.dot(T_camera_world.translation());
   for (int k = 0; k < num_frames; ++k) {
     TrialFrame frame;
     frame.stamp_s = k / kFps;

@@ -21,6 +21,8 @@ struct TrialFrame {
 struct TrialScene {
   PinholeCamera camera;
   std::vector<TrialFrame> frames;
+  Eigen::Vector3d table_normal = Eigen::Vector3d::UnitZ();  ///< unit length, towards the camera
+  double table_offset_m = 0.0;                              ///< table_normal . p of the points on the table
 };
 
 /// A hand (kHuman) or a gripper (kRobot) moves the object at medium speed. Frames of one trial follow one another at

@@ -126,6 +126,7 @@ class ObjectTracker::Implementation {
   double unseen_s = 0.0;     // since the object was last seen well
   PoseStatistics last_mean;  // of the centre
   bool is_anywhere = false;  // nothing is known of the pose yet
+  bool is_on_table = false;  // but that the object rests on a plane
   bool is_blind = false;     // nothing of the object was seen in the last image, or not where it was thought to be
   double reacquired_s = kLongAgoS;         // since the object was found again
   bool fit_is_poor = false;                // look around in the next frame
@@ -305,6 +306,7 @@ bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, doubl
   region.T_camera_centre = last_mean.mean;
   region.variances = searchVariances(unseen_s + dt_s);
   region.is_known = !is_anywhere;
+  region.on_table = is_on_table;
   // As long as something in front explains why nothing is seen, the object is most likely still behind it.
   region.everywhere = status.state() == TrackerState::kLost || unseen_s > kSearchEverywhereAfterS;
   const std::optional<Pose> found = reacquisition.search(depth, camera_in_use, region);
@@ -435,7 +437,7 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
   self.last_seen_centre = T_camera_centre;
   self.unseen_s = 0.0;
   self.fit_is_poor = false;
-  self.is_blind = self.is_anywhere = false;
+  self.is_blind = self.is_anywhere = self.is_on_table = false;
   self.reacquired_s = kLongAgoS;
   self.reacquisition.restart();
   self.follows_hand = false;
@@ -461,6 +463,15 @@ void ObjectTracker::initialiseAnywhere() {
   self.last_mean = PoseStatistics();
   self.last_mean.mean = self.toCentre(T_camera_object);
   self.result.reason = self.status.reason();
+}
+
+void ObjectTracker::initialiseOnTable() {
+  initialiseAnywhere();
+  implementation_->is_on_table = true;
+}
+
+std::optional<ImagePlane> ObjectTracker::table() const {
+  return implementation_->reacquisition.table();
 }
 
 void ObjectTracker::reset() {

@@ -52,6 +52,20 @@ void addIfNew(const OrientedPoint& candidate, double apart_m, std::vector<Orient
   if (!known) points.push_back(candidate);
 }
 
+template <typename Wanted>
+std::vector<OrientedPoint> pointsWhere(const DepthImageView& depth, const PinholeCamera& camera, double reach_m,
+                                       double max_depth_m, int step_px, const Wanted& wanted) {
+  std::vector<OrientedPoint> points;
+  for (int row = step_px / 2; row < depth.height; row += step_px) {
+    for (int col = step_px / 2; col < depth.width; col += step_px) {
+      const float z = readingAt(depth, row, col);
+      if (!(z > 0.0f && z <= static_cast<float>(max_depth_m)) || !wanted(row, col, z)) continue;
+      if (const auto point = orientedPointAt(depth, camera, row, col, reach_m)) points.push_back(*point);
+    }
+  }
+  return points;
+}
+
 }  // namespace
 
 std::optional<OrientedPoint> orientedPointAt(const DepthImageView& depth, const PinholeCamera& camera, int row, int col,
@@ -88,18 +102,14 @@ std::optional<OrientedPoint> orientedPointAt(const DepthImageView& depth, const 
 
 std::vector<OrientedPoint> imagePoints(const DepthImageView& depth, const PinholeCamera& camera,
                                        double object_diameter_m, double max_depth_m, int step_px) {
-  std::vector<OrientedPoint> points;
-  for (int row = step_px / 2; row < depth.height; row += step_px) {
-    for (int col = step_px / 2; col < depth.width; col += step_px) {
-      const float z = readingAt(depth, row, col);
-      if (!(z > 0.0f && z <= static_cast<float>(max_depth_m))) continue;
-      if (liesOnLargePlane(depth, camera, row, col, z, object_diameter_m)) continue;
-      if (const auto point = orientedPointAt(depth, camera, row, col, kPatchReachPerDiameter * object_diameter_m)) {
-        points.push_back(*point);
-      }
-    }
-  }
-  return points;
+  return pointsWhere(
+      depth, camera, kPatchReachPerDiameter * object_diameter_m, max_depth_m, step_px,
+      [&](int row, int col, float z) { return !liesOnLargePlane(depth, camera, row, col, z, object_diameter_m); });
+}
+
+std::vector<OrientedPoint> allImagePoints(const DepthImageView& depth, const PinholeCamera& camera, double reach_m,
+                                          double max_depth_m, int step_px) {
+  return pointsWhere(depth, camera, reach_m, max_depth_m, step_px, [](int, int, float) { return true; });
 }
 
 std::vector<OrientedPoint> objectPoints(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object) {

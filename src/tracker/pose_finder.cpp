@@ -14,6 +14,7 @@ constexpr double kCoarseLevelErrorM = 0.001, kFineLevelErrorM = 0.0005;
 constexpr double kFarthestM = 3.0;
 constexpr double kMatchToleranceM = 0.02;
 constexpr int kFinalCandidates = 10;
+constexpr double kRestsWithinM = 0.02;
 
 int samplingFactor(const PinholeCamera& camera, double diameter_m, double distance_m, double pixels) {
   constexpr double kCoveredShare = 0.35;  // of the square of the diameter
@@ -53,6 +54,7 @@ PoseFinder::PoseFinder(const ObjectShape& shape, const TriangleMesh& mesh, doubl
       pool_(std::move(pool)),
       object_points_(objectPoints(mesh, shape.centre_object)),
       sparse_(object_points_, diameter_m),
+      table_draws_(mesh, shape.centre_object, object_points_, seed),
       coarse_(shape, config, OcclusionChainConfig(), 1, pool_),
       fine_(shape, config, OcclusionChainConfig(), 1, pool_) {}
 
@@ -75,6 +77,19 @@ std::vector<FoundPose> PoseFinder::searchEverywhere(const SearchEffort& effort) 
   image_points_ = imagePoints(depth_, camera_, diameter_m_, max_depth_m_, step_px_);
   if (image_points_.empty() || object_points_.empty()) return {};
   return climbBest(drawBest(effort, [this](std::uint64_t number) { return drawAnywhere(number); }), effort);
+}
+
+std::vector<FoundPose> PoseFinder::searchOnTable(const SearchEffort& effort) {
+  table_draws_.setImage(depth_, camera_, max_depth_m_, step_px_);
+  if (!table_draws_.hasSomethingStanding() || object_points_.empty()) return {};
+  std::vector<FoundPose> found =
+      climbBest(drawBest(effort, [this](std::uint64_t number) { return table_draws_.draw(number); }), effort);
+  found.erase(std::remove_if(found.begin(), found.end(),
+                             [this](const FoundPose& one) {
+                               return std::abs(table_draws_.heightOverTable(one.T_camera_centre)) > kRestsWithinM;
+                             }),
+              found.end());
+  return found;
 }
 
 std::vector<FoundPose> PoseFinder::searchAround(const std::vector<Pose>& T_camera_centre, const Vector6d& variances,

@@ -9,6 +9,7 @@ namespace {
 constexpr SearchEffort kAround{3000, 400, 60, 16};
 constexpr SearchEffort kEverywhere{6000, 800, 100, 16};
 constexpr SearchEffort kEverywhereAtTheStart{40000, 4000, 800, 40};
+constexpr SearchEffort kOnTable{20000, 2000, 400, 24};
 constexpr SearchEffort kOfSurvivors{60, 60, 20, 10};
 constexpr std::size_t kSurvivors = 6;
 constexpr double kSameM = 0.05, kSameRad = 0.5;  // from image to image
@@ -84,7 +85,9 @@ std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const Pin
     found_.insert(found_.end(), more.begin(), more.end());
   };
   add(finder_->searchAround(survivors_, survivorVariances(), kOfSurvivors));
-  if (!region.is_known) add(finder_->searchEverywhere(kEverywhereAtTheStart));
+  if (!region.is_known) {
+    add(region.on_table ? finder_->searchOnTable(kOnTable) : finder_->searchEverywhere(kEverywhereAtTheStart));
+  }
   if (region.is_known && region.everywhere) add(finder_->searchEverywhere(kEverywhere));
 
   const auto margin = [&](const FoundPose& one) {

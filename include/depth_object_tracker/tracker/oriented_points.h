@@ -31,6 +31,10 @@ std::optional<OrientedPoint> orientedPointAt(const DepthImageView& depth, const 
 std::vector<OrientedPoint> imagePoints(const DepthImageView& depth, const PinholeCamera& camera,
                                        double object_diameter_m, double max_depth_m, int step_px);
 
+/// The same, on large planes too. @param reach_m of the patches that the normals are from.
+std::vector<OrientedPoint> allImagePoints(const DepthImageView& depth, const PinholeCamera& camera, double reach_m,
+                                          double max_depth_m, int step_px);
+
 /// Points all over the surface that can be seen from outside, from `centre_object`, object axes.
 std::vector<OrientedPoint> objectPoints(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object);
 

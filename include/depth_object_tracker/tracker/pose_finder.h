@@ -7,9 +7,11 @@
 #include "depth_object_tracker/filter/random.h"
 #include "depth_object_tracker/tracker/oriented_points.h"
 #include "depth_object_tracker/tracker/sparse_fit.h"
+#include "depth_object_tracker/tracker/table_draws.h"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace depth_object_tracker {
@@ -45,6 +47,12 @@ class PoseFinder {
   /// Looks everywhere in the image. The best pose first.
   std::vector<FoundPose> searchEverywhere(const SearchEffort& effort);
 
+  /// Looks for the object resting on a plane that the image shows. The best pose first.
+  std::vector<FoundPose> searchOnTable(const SearchEffort& effort);
+
+  /// The plane of the last searchOnTable(); nullopt when the image shows none.
+  std::optional<ImagePlane> table() const { return table_draws_.table(); }
+
   /// Looks around poses. @param variances [m^2, rad^2] of the displacement, see perturb().
   std::vector<FoundPose> searchAround(const std::vector<Pose>& T_camera_centre, const Vector6d& variances,
                                       const SearchEffort& effort);
@@ -76,6 +84,7 @@ class PoseFinder {
   std::shared_ptr<WorkerPool> pool_;
   std::vector<OrientedPoint> object_points_, image_points_;
   SparseFit sparse_;
+  TableDraws table_draws_;
   DepthLikelihood coarse_, fine_;
   DepthImageView depth_;
   PinholeCamera camera_;

@@ -16,6 +16,7 @@ struct SearchRegion {
   Vector6d variances = Vector6d::Ones();  ///< [m^2, rad^2]
   bool is_known = true;                   ///< false: anywhere in the image
   bool everywhere = false;                ///< is_known: also in the rest of the image
+  bool on_table = false;                  ///< not is_known: it rests on a plane that the image shows
 };
 
 class Reacquisition {
@@ -36,6 +37,9 @@ class Reacquisition {
   /// explains more of the image is better. @return a pose where the object is more surely seen.
   std::optional<Pose> findBetter(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre,
                                  const Vector6d& variances, bool by_likelihood);
+
+  /// The plane on which the object was looked for last; nullopt without one.
+  std::optional<ImagePlane> table() const { return finder_->table(); }
 
   /// What the last search found, surest first.
   const std::vector<FoundPose>& found() const { return found_; }
