@@ -10,8 +10,8 @@ namespace {
 struct RowSums {
   float covered = 0, matching = 0, through = 0, in_front = 0, beside = 0, continued = 0, behind = 0;
 
-  void add(const float* depth, const float* soft_depth, const float* coverage, const float* measured, float tolerance_m,
-           float tolerance_per_m) {
+  void add(const float* depth, const float* soft_depth, const float* coverage, const float* measured, const float* peak,
+           float tolerance_m, float tolerance_per_m) {
     constexpr float kFarthest = 1e6f;  // infinity where nothing was drawn
     for (int i = 0; i < kTileSize; ++i) {
       const float z = measured[i];
@@ -22,7 +22,7 @@ struct RowSums {
       const float tolerance = tolerance_m + tolerance_per_m * z * z;
       const float too_far = z > surface + tolerance ? has_reading : 0.0f;
       const float too_near = z < surface - tolerance ? has_reading : 0.0f;
-      const float same = has_reading - too_far - too_near;
+      const float same = peak[i] > kBackgroundPeak ? has_reading - too_far - too_near : 0.0f;
       covered += is_covered;
       matching += is_covered * same;
       through += is_covered * too_far;
@@ -43,10 +43,10 @@ TileFit countTileFit(const DepthTile& tile, const PixelPlanes& planes, float tol
       if (tile.touched[static_cast<std::size_t>(tile_row * tile.tile_cols + tile_col)] == 0) continue;
       for (int row = tile_row * kTileSize; row < (tile_row + 1) * kTileSize; ++row) {
         const int cell = row * tile.stride + tile_col * kTileSize;
-        const float* measured = planes.depth + static_cast<std::ptrdiff_t>(tile.row_begin + row) * planes.stride +
-                                tile.col_begin + tile_col * kTileSize;
-        sums.add(tile.depth() + cell, tile.soft_depth() + cell, tile.coverage() + cell, measured, tolerance_m,
-                 tolerance_per_m);
+        const std::ptrdiff_t in_image =
+            static_cast<std::ptrdiff_t>(tile.row_begin + row) * planes.stride + tile.col_begin + tile_col * kTileSize;
+        sums.add(tile.depth() + cell, tile.soft_depth() + cell, tile.coverage() + cell, planes.depth + in_image,
+                 planes.visible_peak + in_image, tolerance_m, tolerance_per_m);
       }
     }
   }

@@ -44,6 +44,15 @@ Vector6d anyTurnVariances() {
   return variances;
 }
 
+/// How far from the truth a pose given by hand may be.
+Vector6d givenPoseVariances(const Vector6d& initial_variances) {
+  constexpr double kPositionM = 0.03, kRotationRad = 0.3;
+  Vector6d variances = initial_variances;
+  variances.head<3>() = variances.head<3>().cwiseMax(kPositionM * kPositionM);
+  variances.tail<3>() = variances.tail<3>().cwiseMax(kRotationRad * kRotationRad);
+  return variances;
+}
+
 constexpr int kHypotheses = 100;
 constexpr double kPoorFitReachS = 0.3;  // as far as after this long unseen
 constexpr double kPoorScore = 0.85;
@@ -134,6 +143,8 @@ class ObjectTracker::Implementation {
   bool follows_hand = false;
   Vector6d hand_velocity = Vector6d::Zero();  // of the centre as the robot has it; zero when it is not followed
   FrameClock clock;
+  bool is_given = false;                      // the pose, since the last image, by hand or by a robot
+  std::vector<Pose> around_given;             // at which the object may be instead
   std::optional<Vector6d> initial_variances;  // set by initialise, used by the next image
   double full_resolution_pixels = 0.0;        // that the object covers
   double effort = 1.0;                        // of what is configured
@@ -186,6 +197,11 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
   }
 
   if (is_blind && reacquire(depth, time.dt_s)) is_blind = false;
+  if (is_given && mayReacquire()) {
+    const Pose& given = filter.poses().front();
+    around_given = reacquisition.lookAround(depth, camera, given, givenPoseVariances(*initial_variances));
+  }
+  is_given = false;
   FilterEstimate estimate = is_blind ? hold(time.dt_s, control) : look(time.dt_s, control);
   PoseAssessment assessment = assess(estimate);
   if (!is_blind && seesNothing(assessment)) {
@@ -290,6 +306,8 @@ ProcessStep ObjectTracker::Implementation::makeStep(double dt_s, const std::opti
   if (initial_variances) {
     const ProcessStep step(config.process, *initial_variances);
     if (mayReacquire()) hypotheses = search.around(filter.poses().front(), *initial_variances, kHypotheses);
+    hypotheses.insert(hypotheses.end(), around_given.begin(), around_given.end());
+    around_given.clear();
     initial_variances.reset();
     return step;
   }
@@ -433,6 +451,8 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
     const Eigen::Vector3d centre_from_origin = T_camera_object.linear() * self.centre_object;
     self.initial_variances = transportCovariance(covariance, centre_from_origin).diagonal();
   }
+  self.is_given = true;
+  self.around_given.clear();
   self.filter.initialise(T_camera_centre);
   self.last_seen_centre = T_camera_centre;
   self.unseen_s = 0.0;
@@ -459,6 +479,7 @@ void ObjectTracker::initialiseAnywhere() {
   T_camera_object.translation().z() = kUsualDistanceM;
   initialise(T_camera_object);
   self.initial_variances.reset();
+  self.is_given = false;
   self.is_blind = self.is_anywhere = true;
   self.last_mean = PoseStatistics();
   self.last_mean.mean = self.toCentre(T_camera_object);

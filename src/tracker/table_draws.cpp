@@ -60,6 +60,7 @@ Eigen::Vector3d inPlane(const Eigen::Vector3d& vector, const Eigen::Vector3d& no
 TableDraws::TableDraws(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object,
                        const std::vector<OrientedPoint>& object_points, std::uint64_t seed)
     : diameter_m_(diameter(mesh)),
+      feature_m_(featureSize(mesh, diameter_m_)),
       random_(seed),
       object_points_(object_points),
       rests_(stablePoses(mesh, centre_object)) {
@@ -69,13 +70,14 @@ TableDraws::TableDraws(const TriangleMesh& mesh, const Eigen::Vector3d& centre_o
   if (!weights.empty()) rest_weights_ = summedUp(weights);
 }
 
-void TableDraws::setImage(const DepthImageView& depth, const PinholeCamera& camera, double max_depth_m, int step_px) {
+void TableDraws::setImage(const std::vector<ImagePlane>& planes, const DepthImageView& depth,
+                          const PinholeCamera& camera, double max_depth_m, int step_px) {
   constexpr double kSquarePerDiameter = 0.5, kTallestPerDiameter = 1.05, kAboveTolerances = 1.3;
   constexpr std::size_t kLeastPoints = 3;
   tables_.clear();
-  planes_ = findPlanes(depth, camera, max_depth_m);
+  planes_ = planes;
   const std::vector<OrientedPoint> points =
-      allImagePoints(depth, camera, kPatchReachPerDiameter * diameter_m_, max_depth_m, step_px);
+      allImagePoints(depth, camera, kPatchReachPerSize * feature_m_, max_depth_m, step_px);
   std::vector<double> weights;
   for (const ImagePlane& plane : planes_) {
     const SeenArea area(plane, kSquarePerDiameter * diameter_m_);

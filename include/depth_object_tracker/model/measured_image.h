@@ -48,6 +48,16 @@ struct PixelPlanes {
   const float* occluder_limit = nullptr;  ///< null where there are no known occluders
 };
 
+/// normal . p = offset_m, optical frame.
+struct BackgroundPlane {
+  Eigen::Vector3d normal;  ///< unit length
+  double offset_m;
+};
+
+/// Of `visible_peak` where a background plane explains the reading just as well as the object would; other readings
+/// have far more.
+constexpr float kBackgroundPeak = 1.0f;
+
 /// What all pixels share.
 struct PixelModel {
   float min_p_occluded_in_front;
@@ -71,6 +81,10 @@ class MeasuredImage {
   /// Known occluders for this frame, after setImage().
   /// @param depth_m of the nearest one for each cell of the grid, row-major; 0 = none. Another size is ignored.
   void setOccluders(const std::vector<float>& depth_m);
+
+  /// Readings that lie on one of the planes count for "no object" as much as for an object there. Of the pixels that
+  /// are prepared.
+  void setBackground(const std::vector<BackgroundPlane>& planes);
 
   /// Makes pixels in `box`, grown to whole tiles, available; grows the region only. Not thread-safe.
   void prepare(const CellBox& box);

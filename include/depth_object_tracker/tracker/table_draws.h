@@ -20,8 +20,9 @@ class TableDraws {
   TableDraws(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object,
              const std::vector<OrientedPoint>& object_points, std::uint64_t seed);
 
-  /// Finds the planes and what stands out of them. @param max_depth_m, step_px as for imagePoints().
-  void setImage(const DepthImageView& depth, const PinholeCamera& camera, double max_depth_m, int step_px);
+  /// Finds what stands out of the planes. @param max_depth_m, step_px as for imagePoints().
+  void setImage(const std::vector<ImagePlane>& planes, const DepthImageView& depth, const PinholeCamera& camera,
+                double max_depth_m, int step_px);
 
   /// False when nothing stands on any plane.
   bool hasSomethingStanding() const { return !tables_.empty(); }
@@ -46,7 +47,7 @@ class TableDraws {
   Pose drawLeaning(const Table& table, std::uint64_t number) const;
   double lowestOver(const ImagePlane& plane, const Pose& T_camera_centre) const;
 
-  double diameter_m_;
+  double diameter_m_, feature_m_;
   RandomSource random_;
   std::vector<OrientedPoint> object_points_;
   std::vector<StablePose> rests_;
