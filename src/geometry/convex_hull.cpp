@@ -24,8 +24,8 @@ int indexOfLargest(const std::vector<Eigen::Vector3d>& points, const Value& valu
   return best;
 }
 
-/// A tetrahedron of far points; empty when they lie in a plane.
-std::vector<HullFace> firstFaces(const std::vector<Eigen::Vector3d>& points, double tolerance_m) {
+/// A tetrahedron of far points.
+std::vector<HullFace> firstFaces(const std::vector<Eigen::Vector3d>& points) {
   const auto at = [&](int index) { return points[static_cast<std::size_t>(index)]; };
   const int a = indexOfLargest(points, [](const Eigen::Vector3d& p) { return -p.x(); });
   const int b = indexOfLargest(points, [&](const Eigen::Vector3d& p) { return (p - at(a)).squaredNorm(); });
@@ -34,7 +34,6 @@ std::vector<HullFace> firstFaces(const std::vector<Eigen::Vector3d>& points, dou
   const Eigen::Vector3d normal = (at(b) - at(a)).cross(at(c) - at(a)).normalized();
   const int d = indexOfLargest(points, [&](const Eigen::Vector3d& p) { return std::abs(normal.dot(p - at(a))); });
   const double height = normal.dot(at(d) - at(a));
-  if (!(std::abs(height) > tolerance_m)) return {};
   if (height < 0.0) {
     return {makeFace(points, a, b, c), makeFace(points, a, c, d), makeFace(points, c, b, d), makeFace(points, b, a, d)};
   }
@@ -42,10 +41,10 @@ std::vector<HullFace> firstFaces(const std::vector<Eigen::Vector3d>& points, dou
 }
 
 /// Replaces the faces that see the point by a cone from their rim to it.
-void addPoint(const std::vector<Eigen::Vector3d>& points, int index, double tolerance_m, std::vector<HullFace>& faces) {
+void addPoint(const std::vector<Eigen::Vector3d>& points, int index, std::vector<HullFace>& faces) {
   const Eigen::Vector3d& point = points[static_cast<std::size_t>(index)];
   const auto sees = [&](const HullFace& face) {
-    return face.normal.dot(point - points[static_cast<std::size_t>(face.corners[0])]) > tolerance_m;
+    return face.normal.dot(point - points[static_cast<std::size_t>(face.corners[0])]) > 0.0;
   };
   std::set<std::pair<int, int>> edges;  // of the faces that go, with their direction
   for (const HullFace& face : faces) {
@@ -61,11 +60,14 @@ void addPoint(const std::vector<Eigen::Vector3d>& points, int index, double tole
 
 }  // namespace
 
-std::vector<HullFace> convexHull(const std::vector<Eigen::Vector3d>& points, double tolerance_m) {
+std::vector<HullFace> convexHull(const std::vector<Eigen::Vector3d>& points) {
   if (points.size() < 4) return {};
-  std::vector<HullFace> faces = firstFaces(points, tolerance_m);
-  if (faces.empty()) return {};
-  for (std::size_t i = 0; i < points.size(); ++i) addPoint(points, static_cast<int>(i), tolerance_m, faces);
+  std::vector<HullFace> faces = firstFaces(points);
+  std::set<int> used;  // corners see their own faces by rounding
+  for (const HullFace& face : faces) used.insert(face.corners.begin(), face.corners.end());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (used.count(static_cast<int>(i)) == 0) addPoint(points, static_cast<int>(i), faces);
+  }
   return faces;
 }
 

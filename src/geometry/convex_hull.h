@@ -14,7 +14,7 @@ struct HullFace {
   Eigen::Vector3d normal;      ///< outwards, unit length
 };
 
-/// Empty when all points lie in a plane. Points nearer to the hull than `tolerance_m` may be left out of it.
-std::vector<HullFace> convexHull(const std::vector<Eigen::Vector3d>& points, double tolerance_m);
+/// @param points of which no three lie on a line and no four in a plane. @return empty for fewer than four.
+std::vector<HullFace> convexHull(const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace depth_object_tracker

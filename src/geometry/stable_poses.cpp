@@ -3,11 +3,13 @@
 
 #include "geometry/convex_hull.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 #include <utility>
 
 namespace depth_object_tracker {
@@ -29,8 +31,17 @@ std::vector<Eigen::Vector3d> outermostPoints(const TriangleMesh& mesh, const Eig
   }
   std::sort(chosen.begin(), chosen.end());
   chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+  // Moved by next to nothing, no four of them lie in a plane and no three on a line: the hull needs no special cases.
+  constexpr double kMovedPerDiameter = 2e-5;
+  const double moved_m = kMovedPerDiameter * diameter(mesh);
+  std::mt19937 bits(1);
   std::vector<Eigen::Vector3d> points;
-  for (const std::size_t index : chosen) points.push_back(mesh.vertices[index].cast<double>() - centre_object);
+  for (const std::size_t index : chosen) {
+    Eigen::Vector3d displacement;
+    for (int axis = 0; axis < 3; ++axis)
+      displacement[axis] = moved_m * (static_cast<double>(bits()) / std::mt19937::max() - 0.5);
+    points.push_back(mesh.vertices[index].cast<double>() - centre_object + displacement);
+  }
   return points;
 }
 
@@ -41,11 +52,25 @@ double solidAngle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eige
   return 2.0 * std::abs(std::atan2(volume, base));
 }
 
+bool isFlat(const TriangleMesh& mesh) {
+  constexpr double kLeastThicknessPerDiameter = 1e-3;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3f& vertex : mesh.vertices) {
+    mean += vertex.cast<double>();
+    scatter += vertex.cast<double>() * vertex.cast<double>().transpose();
+  }
+  const auto count = static_cast<double>(mesh.vertices.size());
+  mean /= count;
+  scatter = scatter / count - mean * mean.transpose();
+  const double variance = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvalues()[0];
+  return variance < std::pow(kLeastThicknessPerDiameter * diameter(mesh), 2.0);
+}
+
 /// Hull whose faces know over which edge the object tips.
 class TippingHull {
  public:
-  TippingHull(const std::vector<Eigen::Vector3d>& points, double tolerance_m)
-      : points_(points), faces_(convexHull(points, tolerance_m)) {
+  explicit TippingHull(const std::vector<Eigen::Vector3d>& points) : points_(points), faces_(convexHull(points)) {
     for (std::size_t f = 0; f < faces_.size(); ++f) {
       for (std::size_t k = 0; k < 3; ++k) face_of_edge_[{corner(f, k), corner(f, k + 1)}] = f;
     }
@@ -92,8 +117,8 @@ class TippingHull {
 }  // namespace
 
 std::vector<StablePose> stablePoses(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object) {
-  constexpr double kTolerancePerDiameter = 2e-4;
-  const TippingHull hull(outermostPoints(mesh, centre_object), kTolerancePerDiameter * diameter(mesh));
+  if (isFlat(mesh)) return {};
+  const TippingHull hull(outermostPoints(mesh, centre_object));
   std::map<std::size_t, double> probabilities;
   double sum = 0.0;
   for (std::size_t face = 0; face < hull.size(); ++face) {
