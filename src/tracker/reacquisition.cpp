@@ -114,15 +114,17 @@ std::optional<Pose> Reacquisition::searchAnywhere(const SearchRegion& region) {
   same_winner_ = moved.head<3>().norm() < kSameM && moved.tail<3>().norm() < kSameRad ? same_winner_ + 1 : 0;
   winner_ = best.T_camera_centre;
   double rival = 0.0;
+  std::vector<FoundPose> same_place;
   for (const FoundPose& one : found_) {
     const bool is_elsewhere = (one.T_camera_centre.translation() - winner_.translation()).norm() > kElsewhereM;
     if (is_elsewhere) rival = std::max(rival, one.evidence);
+    if (!is_elsewhere) same_place.push_back(one);
     if (survivors_.size() < kSurvivors) survivors_.push_back(one.T_camera_centre);
   }
   const double needed = std::max(kLeastNeeded, kNeeded - kLessPerImage * same_winner_) +
                         (best.evidence > kClearly * rival ? 0.0 : kMoreIfNotClear);
   if (best.quality < needed) return std::nullopt;
-  return best.T_camera_centre;
+  return mostExplaining(same_place).T_camera_centre;
 }
 
 std::vector<Pose> Reacquisition::lookAround(const DepthImageView& depth, const PinholeCamera& camera,
