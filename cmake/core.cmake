@@ -52,6 +52,7 @@ add_library(depth_object_tracker_core SHARED
   src/tracker/parameter_binding.cpp
   src/tracker/plane_finder.cpp
   src/tracker/point_pairs.cpp
+  src/tracker/pose_evidence.cpp
   src/tracker/pose_finder.cpp
   src/tracker/pose_search.cpp
   src/tracker/reacquisition.cpp

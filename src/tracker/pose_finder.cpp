@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/tracker/pose_finder.h"
 
+#include "tracker/pose_evidence.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -43,38 +45,7 @@ bool isLargerThan(const ImagePlane& plane, double diameter_m) {
   return side(2) > kLongerThan * diameter_m && side(1) > kBroaderThan * diameter_m;
 }
 
-/// 1 when all of the object is seen where it should be and stands out all around.
-double fitQuality(const TileFit& fit) {
-  constexpr int kLeastCells = 15;
-  constexpr double kPerContinuedShare = 1.5;
-  if (fit.measured() < kLeastCells) return -std::numeric_limits<double>::infinity();
-  const double continued = static_cast<double>(fit.continued) / std::max(1, fit.beside);
-  return static_cast<double>(fit.matching - fit.through) / fit.measured() - kPerContinuedShare * continued;
-}
-
 }  // namespace
-
-double findQuality(const PoseAssessment& assessment) {
-  constexpr int kLeastCells = 10;
-  constexpr double kPerContinuedShare = 2.0;
-  if (assessment.measured_pixels < kLeastCells || !(assessment.expected > 0.0)) return 0.0;
-  const double visible = assessment.visible_pixels / assessment.measured_pixels;
-  const double score = std::min(1.0, assessment.achieved / assessment.expected);
-  const double continued =
-      static_cast<double>(assessment.continued_pixels) / std::max(1, assessment.surrounding_pixels);
-  return std::max(0.0, visible * score * std::abs(score)) * std::max(0.0, 1.0 - kPerContinuedShare * continued);
-}
-
-/// A small part of the image fits something by chance sooner than a large one. Through a rigid object nothing is seen
-/// but beside its outline: an arm that is taken for a can gives itself away.
-double findEvidence(const PoseAssessment& assessment) {
-  constexpr double kThroughAtOutline = 0.12, kPerShare = 6.0;
-  if (!(assessment.expected > 0.0)) return 0.0;
-  const double through = static_cast<double>(assessment.through_pixels) / std::max(1, assessment.surrounding_pixels);
-  const double fit = findQuality(assessment) * std::min(1.0, assessment.achieved / assessment.expected);
-  return fit * fit * std::exp(-kPerShare * std::max(0.0, through - kThroughAtOutline)) *
-         std::max(0.0, assessment.log_likelihood);
-}
 
 PoseFinder::PoseFinder(const ObjectShape& shape, const TriangleMesh& mesh, double diameter_m,
                        const PixelModelConfig& config, std::uint64_t seed, std::shared_ptr<WorkerPool> pool)
