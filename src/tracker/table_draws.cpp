@@ -132,7 +132,7 @@ Pose TableDraws::drawResting(const Table& table, std::uint64_t number) const {
   return pose;
 }
 
-/// Any orientation, the lowest point on the plane: leaning against something, or held just above.
+/// Any orientation: leaning against something. What does not touch the plane is left out after the search.
 Pose TableDraws::drawLeaning(const Table& table, std::uint64_t number) const {
   const auto uniform = [&](std::uint32_t index) { return random_.uniform(RandomPurpose::kSearch, number, index); };
   const auto pick = [&](std::uint32_t index, const std::vector<OrientedPoint>& points) -> const OrientedPoint& {
