@@ -15,6 +15,7 @@ add_library(depth_object_tracker_core SHARED
   src/filter/tile_fit.cpp
   src/filter/tile_likelihood.cpp
   src/filter/worker_pool.cpp
+  src/geometry/convex_hull.cpp
   src/geometry/edge_collapse.cpp
   src/geometry/level_of_detail.cpp
   src/geometry/mesh_file_check.cpp
@@ -26,6 +27,7 @@ add_library(depth_object_tracker_core SHARED
   src/geometry/pose.cpp
   src/geometry/shape_meshes.cpp
   src/geometry/simd_target.cpp
+  src/geometry/stable_poses.cpp
   src/geometry/surface_distance.cpp
   src/geometry/symmetry.cpp
   src/geometry/triangle_mesh.cpp
@@ -54,12 +56,16 @@ add_library(depth_object_tracker_core SHARED
   src/tracker/oriented_points.cpp
   src/tracker/other_objects.cpp
   src/tracker/parameter_binding.cpp
+  src/tracker/plane_finder.cpp
+  src/tracker/point_pairs.cpp
+  src/tracker/pose_evidence.cpp
   src/tracker/pose_finder.cpp
   src/tracker/pose_search.cpp
   src/tracker/reacquisition.cpp
   src/tracker/resolution.cpp
   src/tracker/sparse_fit.cpp
   src/tracker/status_monitor.cpp
+  src/tracker/table_draws.cpp
   src/tracker/tracker_config_file.cpp
   src/tracker/tracker_parameters.cpp
   src/tracker/tracker_result.cpp

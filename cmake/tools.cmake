@@ -23,3 +23,13 @@ target_link_libraries(depth_object_tracker_tools
 
 add_executable(track_sequence src/tools/track_sequence.cpp)
 target_link_libraries(track_sequence PRIVATE depth_object_tracker_tools depth_object_tracker_warnings)
+
+add_executable(initialisation_trials
+  src/tools/initialisation_trial.cpp
+  src/tools/initialisation_trials.cpp
+  src/tools/trial_scene.cpp
+)
+target_include_directories(initialisation_trials PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+target_link_libraries(initialisation_trials
+  PRIVATE depth_object_tracker_tools depth_object_tracker_simulator depth_object_tracker_warnings CLI11::CLI11
+    nlohmann_json::nlohmann_json)

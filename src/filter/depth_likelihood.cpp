@@ -41,13 +41,20 @@ MeasuredPixel broadened(MeasuredPixel pixel, float extra_stddev_m) {
   if (extra_stddev_m <= 0.0f || pixel.depth <= 0.0f) return pixel;
   const float shrink = 1.0f / std::hypot(1.0f, extra_stddev_m * pixel.inverse_stddev);
   pixel.inverse_stddev *= shrink;
-  pixel.visible_peak *= shrink;
+  if (pixel.visible_peak > kBackgroundPeak) pixel.visible_peak *= shrink;
   return pixel;
+}
+
+/// What is seen at a depth is there without the object as well: it speaks neither for it nor against it.
+bool isBackgroundAt(const MeasuredPixel& pixel, float depth) {
+  constexpr float kSameStddevs = 4.0f;
+  return pixel.visible_peak <= kBackgroundPeak && std::abs(pixel.depth - depth) * pixel.inverse_stddev < kSameStddevs;
 }
 
 /// Adds what one covered pixel with a reading says about how well a pose fits.
 void assessPixel(const MeasuredPixel& pixel, float depth, float coverage, float p_occluded, const PixelModel& model,
                  PoseAssessment& sum) {
+  if (isBackgroundAt(pixel, depth)) return;
   const PixelRatios ratios = pixelRatios(model, pixel, depth);
   const float visible = (1.0f - p_occluded) * ratios.visible, occluded = p_occluded * ratios.occluded;
   const float total = (1.0f - coverage) + coverage * (visible + occluded);
@@ -66,7 +73,7 @@ void assessPixel(const MeasuredPixel& pixel, float depth, float coverage, float 
 /// A table or board that is taken for one of the object's faces goes on beyond the outline; an object ends there.
 void assessSurroundings(const MeasuredPixel& pixel, float surface_depth, PoseAssessment& sum) {
   constexpr float kSameSurfaceStddevs = 4.0f;
-  if (pixel.visible_peak <= 0.0f) return;
+  if (isBackgroundAt(pixel, surface_depth)) return;
   ++sum.surrounding_pixels;
   if (std::abs(pixel.depth - surface_depth) * pixel.inverse_stddev < kSameSurfaceStddevs) ++sum.continued_pixels;
 }

@@ -10,8 +10,8 @@ namespace {
 struct RowSums {
   float covered = 0, matching = 0, through = 0, in_front = 0, beside = 0, continued = 0, behind = 0;
 
-  void add(const float* depth, const float* soft_depth, const float* coverage, const float* measured,
-           const float* visible_peak, float tolerance_m, float tolerance_per_m) {
+  void add(const float* depth, const float* soft_depth, const float* coverage, const float* measured, const float* peak,
+           float tolerance_m, float tolerance_per_m) {
     constexpr float kFarthest = 1e6f;  // infinity where nothing was drawn
     for (int i = 0; i < kTileSize; ++i) {
       const float z = measured[i];
@@ -23,11 +23,12 @@ struct RowSums {
       const float too_far = z > surface + tolerance ? has_reading : 0.0f;
       const float too_near = z < surface - tolerance ? has_reading : 0.0f;
       const float on_surface = has_reading - too_far - too_near;
-      const float same = visible_peak[i] > 0.0f ? on_surface : 0.0f;  // else something else is seen there
+      const float same = peak[i] > kBackgroundPeak ? on_surface : 0.0f;
+      const float taken = peak[i] > 0.0f ? 0.0f : on_surface;  // something else is seen there
       covered += is_covered;
       matching += is_covered * same;
       through += is_covered * too_far;
-      in_front += is_covered * (too_near + on_surface - same);
+      in_front += is_covered * (too_near + taken);
       beside += is_beside * has_reading;
       continued += is_beside * same;
       behind += is_beside * too_far;

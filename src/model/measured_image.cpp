@@ -61,6 +61,22 @@ void MeasuredImage::setTakenSurfaces(const std::vector<float>& depth_m) {
   }
 }
 
+void MeasuredImage::setBackground(const std::vector<BackgroundPlane>& planes) {
+  constexpr double kLeastToleranceM = 0.003, kNoiseStddevs = 2.0;
+  const PinholeCamera& camera = grid_.camera;
+  for (int row = prepared_.row_begin; row < std::min(prepared_.row_end, camera.height); ++row) {
+    for (int col = prepared_.col_begin; col < std::min(prepared_.col_end, camera.width); ++col) {
+      const std::size_t i = static_cast<std::size_t>(row) * stride_ + static_cast<std::size_t>(col);
+      const double z = depth_[i], tolerance = kLeastToleranceM + kNoiseStddevs * config_.depth_noise_per_m * z * z;
+      const Eigen::Vector3d p = z * camera.ray(col, row);
+      const bool explained = std::any_of(planes.begin(), planes.end(), [&](const BackgroundPlane& plane) {
+        return std::abs(plane.normal.dot(p) - plane.offset_m) < tolerance;
+      });
+      if (explained) visible_peak_[i] = std::min(visible_peak_[i], kBackgroundPeak);
+    }
+  }
+}
+
 void MeasuredImage::prepare(const CellBox& box) {
   const CellBox wanted = intersect(box, imageBox());
   if (wanted.empty() || prepared_.contains(wanted)) return;

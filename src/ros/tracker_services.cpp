@@ -85,21 +85,18 @@ bool TrackerServices::initializeAtMarker(std_srvs::Trigger::Response& response) 
 
 bool TrackerServices::initialize(InitializeTracker::Request& request, InitializeTracker::Response& response) {
   using Mode = InitializeTracker::Request;
-  if (request.mode != Mode::FROM_POSE && request.mode != Mode::GLOBAL && request.mode != Mode::IN_HAND) {
+  if (request.mode > Mode::GLOBAL) {
     response.message = "mode " + std::to_string(request.mode) + " is not available; use FROM_POSE (" +
-                       std::to_string(Mode::FROM_POSE) + "), IN_HAND (" + std::to_string(Mode::IN_HAND) +
-                       ") or GLOBAL (" + std::to_string(Mode::GLOBAL) + ")";
+                       std::to_string(Mode::FROM_POSE) + "), ON_TABLE (" + std::to_string(Mode::ON_TABLE) +
+                       "), IN_HAND (" + std::to_string(Mode::IN_HAND) + ") or GLOBAL (" + std::to_string(Mode::GLOBAL) +
+                       ")";
     return true;
   }
   if (!std::isfinite(request.timeout_s) || request.timeout_s < 0.0 || request.timeout_s > kMaxTimeoutS) {
     response.message = "timeout_s is " + std::to_string(request.timeout_s) + "; it must be in [0, 3600]";
     return true;
   }
-  if (request.mode == Mode::GLOBAL)
-    return answer(startAndWait([](TrackerSession& session,
-                                  InitialisationCallback callback) { session.initialiseAnywhere(std::move(callback)); },
-                               request.timeout_s, "the whole image is searched, from the next one on"),
-                  response);
+  if (request.mode == Mode::GLOBAL || request.mode == Mode::ON_TABLE) return search(request, response);
   if (request.mode == Mode::IN_HAND) {
     if (request.link.empty()) {
       response.message = "IN_HAND needs `link`, the frame of the hand, and `pose`, the object's pose in it";
@@ -118,6 +115,19 @@ bool TrackerServices::initialize(InitializeTracker::Request& request, Initialize
     session.initialise(pose, std::move(callback));
   };
   return answer(startAndWait(start, request.timeout_s, "initial pose accepted; tracking starts with the next image"),
+                response);
+}
+
+/// Starts without a pose.
+bool TrackerServices::search(const InitializeTracker::Request& request, InitializeTracker::Response& response) {
+  const bool on_table = request.mode == InitializeTracker::Request::ON_TABLE;
+  const auto start = [on_table](TrackerSession& session, InitialisationCallback callback) {
+    if (on_table) return session.initialiseOnTable(std::move(callback));
+    session.initialiseAnywhere(std::move(callback));
+  };
+  return answer(startAndWait(start, request.timeout_s,
+                             on_table ? "what stands on a plane of the image is searched, from the next one on"
+                                      : "the whole image is searched, from the next one on"),
                 response);
 }
 

@@ -57,17 +57,23 @@ void TrackerSession::initialise(const InitialPose& pose, InitialisationCallback 
 }
 
 void TrackerSession::initialiseAnywhere(InitialisationCallback callback) {
+  if (startWithoutPose(std::move(callback))) object_.tracker->initialiseAnywhere();
+}
+
+void TrackerSession::initialiseOnTable(InitialisationCallback callback) {
+  if (startWithoutPose(std::move(callback))) object_.tracker->initialiseOnTable();
+}
+
+/// Forgets what was known of the pose; false, and told, when there is no object.
+bool TrackerSession::startWithoutPose(InitialisationCallback callback) {
   correction_.reset();
   abandon("superseded by a search of the whole image");
   waiting_ = std::move(callback);
   pending_pose_.reset();
   given_pose_.reset();
   initial_pose_problem_.clear();
-  if (object_.tracker) {
-    object_.tracker->initialiseAnywhere();
-  } else {
-    abandon("there is no object to track: " + object_.problem);
-  }
+  if (!object_.tracker) abandon("there is no object to track: " + object_.problem);
+  return object_.tracker != nullptr;
 }
 
 bool TrackerSession::needsPose() const {

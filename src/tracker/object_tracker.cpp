@@ -47,6 +47,15 @@ Vector6d anyTurnVariances() {
   return variances;
 }
 
+/// How far from the truth a pose given by hand may be.
+Vector6d givenPoseVariances(const Vector6d& initial_variances) {
+  constexpr double kPositionM = 0.03, kRotationRad = 0.3;
+  Vector6d variances = initial_variances;
+  variances.head<3>() = variances.head<3>().cwiseMax(kPositionM * kPositionM);
+  variances.tail<3>() = variances.tail<3>().cwiseMax(kRotationRad * kRotationRad);
+  return variances;
+}
+
 constexpr int kHypotheses = 100;
 constexpr double kPoorFitReachS = 0.3;  // as far as after this long unseen
 constexpr double kFitsWithinS = 0.3;    // an initial pose, or it is wrong
@@ -131,6 +140,7 @@ class ObjectTracker::Implementation {
   double unseen_s = 0.0;       // since the object was last seen well
   PoseStatistics last_mean;    // of the centre
   bool is_anywhere = false;    // nothing is known of the pose yet
+  bool is_on_table = false;    // but that the object rests on a plane
   bool is_blind = false;       // nothing of the object was seen in the last image, or not where it was thought to be
   double moved_s = kLongAgoS;  // since the filter was started anew, at a pose that was searched
   double reacquired_s = kLongAgoS;  // since the object was found again
@@ -140,6 +150,8 @@ class ObjectTracker::Implementation {
   bool follows_hand = false;
   Vector6d hand_velocity = Vector6d::Zero();  // of the centre as the robot has it; zero when it is not followed
   FrameClock clock;
+  bool is_given = false;                      // the pose, since the last image, by hand or by a robot
+  std::vector<Pose> around_given;             // at which the object may be instead
   std::optional<Vector6d> initial_variances;  // set by initialise, used by the next image
   double full_resolution_pixels = 0.0;        // that the object covers
   double effort = 1.0;                        // of what is configured
@@ -199,6 +211,11 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
   }
 
   if (is_blind && reacquire(depth, time.dt_s)) is_blind = false;
+  if (is_given && mayReacquire()) {
+    const Pose& given = filter.poses().front();
+    around_given = reacquisition.lookAround(depth, camera, given, givenPoseVariances(*initial_variances));
+  }
+  is_given = false;
   FilterEstimate estimate = is_blind ? hold(time.dt_s, control) : look(time.dt_s, control);
   PoseAssessment assessment = assess(estimate);
   if (!is_blind && seesNothing(assessment)) {
@@ -305,6 +322,8 @@ ProcessStep ObjectTracker::Implementation::makeStep(double dt_s, const std::opti
   if (initial_variances) {
     const ProcessStep step(config.process, *initial_variances);
     if (mayReacquire()) hypotheses.always = search.around(filter.poses().front(), *initial_variances, kHypotheses);
+    hypotheses.always.insert(hypotheses.always.end(), around_given.begin(), around_given.end());
+    around_given.clear();
     initial_variances.reset();
     return step;
   }
@@ -321,6 +340,7 @@ bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, doubl
   region.T_camera_centre = last_mean.mean;
   region.variances = searchVariances(unseen_s + dt_s);
   region.is_known = !is_anywhere;
+  region.on_table = is_on_table;
   // As long as something in front explains why nothing is seen, the object is most likely still behind it.
   region.everywhere = status.state() == TrackerState::kLost || status.state() == TrackerState::kInitializing ||
                       unseen_s > kSearchEverywhereAfterS;
@@ -480,13 +500,15 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
     const Eigen::Vector3d centre_from_origin = T_camera_object.linear() * self.centre_object;
     self.initial_variances = transportCovariance(covariance, centre_from_origin).diagonal();
   }
+  self.is_given = true;
+  self.around_given.clear();
   self.filter.initialise(T_camera_centre);
   self.last_mean = PoseStatistics();
   self.last_mean.mean = T_camera_centre;
   self.unseen_s = 0.0;
   self.doubt.restart();
   self.initialising_s = 0.0;
-  self.is_blind = self.is_anywhere = false;
+  self.is_blind = self.is_anywhere = self.is_on_table = false;
   self.reacquired_s = self.moved_s = kLongAgoS;
   self.calibration.restart();
   self.look_alikes.restart();
@@ -510,8 +532,18 @@ void ObjectTracker::initialiseAnywhere() {
   T_camera_object.translation().z() = kUsualDistanceM;
   initialise(T_camera_object);
   self.initial_variances.reset();
+  self.is_given = false;
   self.is_blind = self.is_anywhere = true;
   self.result.reason = self.status.reason();
+}
+
+void ObjectTracker::initialiseOnTable() {
+  initialiseAnywhere();
+  implementation_->is_on_table = true;
+}
+
+std::optional<ImagePlane> ObjectTracker::table() const {
+  return implementation_->reacquisition.table();
 }
 
 void ObjectTracker::reset() {

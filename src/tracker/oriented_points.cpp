@@ -4,6 +4,7 @@
 #include "depth_object_tracker/render/depth_renderer.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +53,20 @@ void addIfNew(const OrientedPoint& candidate, double apart_m, std::vector<Orient
   if (!known) points.push_back(candidate);
 }
 
+template <typename Wanted>
+std::vector<OrientedPoint> pointsWhere(const DepthImageView& depth, const PinholeCamera& camera, double reach_m,
+                                       double max_depth_m, int step_px, const Wanted& wanted) {
+  std::vector<OrientedPoint> points;
+  for (int row = step_px / 2; row < depth.height; row += step_px) {
+    for (int col = step_px / 2; col < depth.width; col += step_px) {
+      const float z = readingAt(depth, row, col);
+      if (!(z > 0.0f && z <= static_cast<float>(max_depth_m)) || !wanted(row, col, z)) continue;
+      if (const auto point = orientedPointAt(depth, camera, row, col, reach_m)) points.push_back(*point);
+    }
+  }
+  return points;
+}
+
 }  // namespace
 
 std::optional<OrientedPoint> orientedPointAt(const DepthImageView& depth, const PinholeCamera& camera, int row, int col,
@@ -87,38 +102,38 @@ std::optional<OrientedPoint> orientedPointAt(const DepthImageView& depth, const 
 }
 
 std::vector<OrientedPoint> imagePoints(const DepthImageView& depth, const PinholeCamera& camera,
-                                       double object_diameter_m, double max_depth_m, int step_px) {
-  std::vector<OrientedPoint> points;
-  for (int row = step_px / 2; row < depth.height; row += step_px) {
-    for (int col = step_px / 2; col < depth.width; col += step_px) {
-      const float z = readingAt(depth, row, col);
-      if (!(z > 0.0f && z <= static_cast<float>(max_depth_m))) continue;
-      if (liesOnLargePlane(depth, camera, row, col, z, object_diameter_m)) continue;
-      if (const auto point = orientedPointAt(depth, camera, row, col, kPatchReachPerDiameter * object_diameter_m)) {
-        points.push_back(*point);
-      }
-    }
-  }
-  return points;
+                                       double object_diameter_m, double reach_m, double max_depth_m, int step_px) {
+  return pointsWhere(depth, camera, reach_m, max_depth_m, step_px, [&](int row, int col, float z) {
+    return !liesOnLargePlane(depth, camera, row, col, z, object_diameter_m);
+  });
+}
+
+std::vector<OrientedPoint> allImagePoints(const DepthImageView& depth, const PinholeCamera& camera, double reach_m,
+                                          double max_depth_m, int step_px) {
+  return pointsWhere(depth, camera, reach_m, max_depth_m, step_px, [](int, int, float) { return true; });
 }
 
 std::vector<OrientedPoint> objectPoints(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object) {
-  constexpr int kViews = 60, kImageSize = 96, kStep = 5;
-  constexpr double kDistanceInDiameters = 4.0, kApartPerDiameter = 0.09;
+  constexpr int kViews = 60;
+  constexpr double kDistanceInDiameters = 4.0, kApartPerSize = 0.09;
   const double diameter_m = std::max(diameter(mesh), 1e-6), distance = kDistanceInDiameters * diameter_m;
-  const PinholeCamera camera{kImageSize,
-                             kImageSize,
-                             0.9 * kImageSize * kDistanceInDiameters,
-                             0.9 * kImageSize * kDistanceInDiameters,
-                             0.5 * (kImageSize - 1),
-                             0.5 * (kImageSize - 1)};
+  const double feature_m = featureSize(mesh, diameter_m);
+  // A thin object needs a finer picture: the patches are smaller.
+  const int image_size = static_cast<int>(std::lround(96.0 * std::min(3.0, diameter_m / feature_m)));
+  constexpr int kStep = 5;
+  const PinholeCamera camera{image_size,
+                             image_size,
+                             0.9 * image_size * kDistanceInDiameters,
+                             0.9 * image_size * kDistanceInDiameters,
+                             0.5 * (image_size - 1),
+                             0.5 * (image_size - 1)};
   DepthRenderer renderer(mesh);
   std::vector<OrientedPoint> points;
-  std::vector<float> image(static_cast<std::size_t>(kImageSize * kImageSize));
+  std::vector<float> image(static_cast<std::size_t>(image_size * image_size));
   DepthImageView view;
   view.data = reinterpret_cast<const std::uint8_t*>(image.data());
-  view.width = view.height = kImageSize;
-  view.step = kImageSize * sizeof(float);
+  view.width = view.height = image_size;
+  view.step = image_size * sizeof(float);
   view.pixel_type = DepthImageView::PixelType::kFloat32;
   view.unit_m = 1.0;
   for (int index = 0; index < kViews; ++index) {
@@ -128,18 +143,30 @@ std::vector<OrientedPoint> objectPoints(const TriangleMesh& mesh, const Eigen::V
     T_camera_object.translation() = Eigen::Vector3d(0.0, 0.0, distance) - R * centre_object;
     std::fill(image.begin(), image.end(), 0.0f);
     for (const CoveredPixel& pixel : renderer.render(T_camera_object, camera)) {
-      image[static_cast<std::size_t>(pixel.row * kImageSize + pixel.col)] = pixel.depth;
+      image[static_cast<std::size_t>(pixel.row * image_size + pixel.col)] = pixel.depth;
     }
-    for (int row = kStep / 2; row < kImageSize; row += kStep) {
-      for (int col = kStep / 2; col < kImageSize; col += kStep) {
-        const auto seen = orientedPointAt(view, camera, row, col, kPatchReachPerDiameter * diameter_m);
+    for (int row = kStep / 2; row < image_size; row += kStep) {
+      for (int col = kStep / 2; col < image_size; col += kStep) {
+        const auto seen = orientedPointAt(view, camera, row, col, kPatchReachPerSize * feature_m);
         if (!seen) continue;
         const Eigen::Vector3d from_centre = seen->point - Eigen::Vector3d(0.0, 0.0, distance);
-        addIfNew({R.transpose() * from_centre, R.transpose() * seen->normal}, kApartPerDiameter * diameter_m, points);
+        addIfNew({R.transpose() * from_centre, R.transpose() * seen->normal}, kApartPerSize * feature_m, points);
       }
     }
   }
   return points;
+}
+
+double featureSize(const TriangleMesh& mesh, double diameter_m) {
+  double area = 0.0;
+  for (const auto& triangle : mesh.triangles) {
+    const Eigen::Vector3d a = mesh.vertices[triangle[0]].cast<double>();
+    const Eigen::Vector3d b = mesh.vertices[triangle[1]].cast<double>(), c = mesh.vertices[triangle[2]].cast<double>();
+    area += 0.5 * (b - a).cross(c - a).norm();
+  }
+  // A convex body shows a quarter of its surface on average (Cauchy); a cube gets its diameter.
+  constexpr double kLeastShare = 0.25;
+  return std::clamp(M_SQRT2 * std::sqrt(0.25 * area), kLeastShare * diameter_m, diameter_m);
 }
 
 Pose layOn(const OrientedPoint& image_point, const OrientedPoint& object_point, double turn_rad) {

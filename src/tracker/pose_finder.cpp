@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/tracker/pose_finder.h"
 
+#include "tracker/pose_evidence.h"
+
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -14,6 +18,7 @@ constexpr double kCoarseLevelErrorM = 0.001, kFineLevelErrorM = 0.0005;
 constexpr double kFarthestM = 3.0;
 constexpr double kMatchToleranceM = 0.02;
 constexpr int kFinalCandidates = 10;
+constexpr double kRestsWithinM = 0.02;
 
 int samplingFactor(const PinholeCamera& camera, double diameter_m, double distance_m, double pixels) {
   constexpr double kCoveredShare = 0.35;  // of the square of the diameter
@@ -22,39 +27,38 @@ int samplingFactor(const PinholeCamera& camera, double diameter_m, double distan
   return std::clamp(static_cast<int>(std::lround(projected * std::sqrt(kCoveredShare / pixels))), 1, kMaxFactor);
 }
 
-/// 1 when all of the object is seen where it should be and stands out all around.
-double fitQuality(const TileFit& fit) {
-  constexpr int kLeastCells = 15;
-  constexpr double kPerContinuedShare = 1.5;
-  if (fit.measured() < kLeastCells) return -std::numeric_limits<double>::infinity();
-  const double continued = static_cast<double>(fit.continued) / std::max(1, fit.beside);
-  return static_cast<double>(fit.matching - fit.through) / fit.measured() - kPerContinuedShare * continued;
+/// Larger than any face of an object of that diameter, and no chance collection of readings.
+bool isLargerThan(const ImagePlane& plane, double diameter_m) {
+  constexpr double kLeastShare = 0.06, kLongerThan = 1.5, kBroaderThan = 0.8;
+  if (plane.share < kLeastShare) return false;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& point : plane.points) {
+    mean += point;
+    scatter += point * point.transpose();
+  }
+  const auto count = static_cast<double>(plane.points.size());
+  mean /= count;
+  scatter = scatter / count - mean * mean.transpose();
+  const Eigen::Vector3d spread = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvalues().cwiseMax(0.0);
+  const auto side = [&](int axis) { return std::sqrt(12.0 * spread[axis]); };  // of a rectangle
+  return side(2) > kLongerThan * diameter_m && side(1) > kBroaderThan * diameter_m;
 }
 
 }  // namespace
 
-double findQuality(const PoseAssessment& assessment) {
-  constexpr int kLeastCells = 10;
-  constexpr double kPerContinuedShare = 2.0, kLeastMeasured = 0.5;
-  if (assessment.measured_pixels < kLeastCells || !(assessment.expected > 0.0)) return 0.0;
-  // Where most of it has no reading nothing is seen of it, however well the rest fits.
-  const double visible = assessment.visible_pixels /
-                         std::max<double>(assessment.measured_pixels, kLeastMeasured * assessment.covered_pixels);
-  const double score = std::min(1.0, assessment.achieved / assessment.expected);
-  const double continued =
-      static_cast<double>(assessment.continued_pixels) / std::max(1, assessment.surrounding_pixels);
-  return std::max(0.0, visible * score * std::abs(score)) * std::max(0.0, 1.0 - kPerContinuedShare * continued);
-}
-
 PoseFinder::PoseFinder(const ObjectShape& shape, const TriangleMesh& mesh, double diameter_m,
                        const PixelModelConfig& config, std::uint64_t seed, std::shared_ptr<WorkerPool> pool)
     : diameter_m_(diameter_m),
+      feature_m_(featureSize(mesh, diameter_m)),
       radius_m_(shape.radius_m),
       max_depth_m_(std::min(config.max_depth_m, kFarthestM)),
       random_(seed),
       pool_(std::move(pool)),
       object_points_(objectPoints(mesh, shape.centre_object)),
+      pairs_(object_points_, diameter_m),
       sparse_(object_points_, diameter_m),
+      table_draws_(mesh, shape.centre_object, object_points_, seed),
       coarse_(shape, config, OcclusionChainConfig(), 1, pool_),
       fine_(shape, config, OcclusionChainConfig(), 1, pool_),
       pixel_config_(config) {}
@@ -81,15 +85,14 @@ DepthImageView PoseFinder::withoutTaken(KnownOccluders& occluders) {
 
 void PoseFinder::setImage(const DepthImageView& depth, const PinholeCamera& camera, double distance_m,
                           KnownOccluders* occluders) {
-  constexpr double kStepPerDiameter = 0.06;
+  constexpr double kStepPerSize = 0.06;
   depth_ = depth;
   camera_ = camera;
-  step_px_ = std::max(2, static_cast<int>(kStepPerDiameter * diameter_m_ * camera.fx / distance_m));
+  step_px_ = std::max(2, static_cast<int>(kStepPerSize * feature_m_ * camera.fx / distance_m));
   coarse_.resetOcclusion();
   fine_.resetOcclusion();
-  coarse_.setImage(depth, makeSamplingGrid(camera, samplingFactor(camera, diameter_m_, distance_m, kCoarsePixels)),
-                   0.0);
-  fine_.setImage(depth, makeSamplingGrid(camera, samplingFactor(camera, diameter_m_, distance_m, kFinePixels)), 0.0);
+  coarse_.setImage(depth, makeSamplingGrid(camera, samplingFactor(camera, feature_m_, distance_m, kCoarsePixels)), 0.0);
+  fine_.setImage(depth, makeSamplingGrid(camera, samplingFactor(camera, feature_m_, distance_m, kFinePixels)), 0.0);
   if (occluders != nullptr) {
     coarse_.setTakenSurfaces(occluders->renderSeen(coarse_.image().grid().camera));
     fine_.setTakenSurfaces(occluders->renderSeen(fine_.image().grid().camera));
@@ -98,12 +101,35 @@ void PoseFinder::setImage(const DepthImageView& depth, const PinholeCamera& came
   coarse_.prepareWholeImage(kCoarseLevelErrorM);
   fine_.prepareWholeImage(kFineLevelErrorM);
   sparse_.setImage(depth_, camera);
+  has_background_ = false;
 }
 
 std::vector<FoundPose> PoseFinder::searchEverywhere(const SearchEffort& effort) {
-  image_points_ = imagePoints(depth_, camera_, diameter_m_, max_depth_m_, step_px_);
+  findBackground();
+  image_points_ = imagePoints(depth_, camera_, diameter_m_, kPatchReachPerSize * feature_m_, max_depth_m_, step_px_);
+  const auto in_background = [this](const OrientedPoint& point) {
+    return std::any_of(background_.begin(), background_.end(), [&](const ImagePlane& plane) {
+      return std::abs(plane.heightOf(point.point)) < planeToleranceM(point.point.z());
+    });
+  };
+  image_points_.erase(std::remove_if(image_points_.begin(), image_points_.end(), in_background), image_points_.end());
   if (image_points_.empty() || object_points_.empty()) return {};
-  return climbBest(drawBest(effort, [this](std::uint64_t number) { return drawAnywhere(number); }), effort);
+  listNeighbours();
+  return climbBest(drawBest(effort, [this](std::uint64_t number) { return drawAnywhere(number); }), effort, true);
+}
+
+std::vector<FoundPose> PoseFinder::searchOnTable(const SearchEffort& effort) {
+  findBackground();
+  table_draws_.setImage(planes_, depth_, camera_, max_depth_m_, step_px_);
+  if (!table_draws_.hasSomethingStanding() || object_points_.empty()) return {};
+  std::vector<FoundPose> found =
+      climbBest(drawBest(effort, [this](std::uint64_t number) { return table_draws_.draw(number); }), effort, true);
+  found.erase(std::remove_if(found.begin(), found.end(),
+                             [this](const FoundPose& one) {
+                               return std::abs(table_draws_.heightOverTable(one.T_camera_centre)) > kRestsWithinM;
+                             }),
+              found.end());
+  return found;
 }
 
 std::vector<FoundPose> PoseFinder::searchAround(const std::vector<Pose>& T_camera_centre, const Vector6d& variances,
@@ -116,7 +142,7 @@ std::vector<FoundPose> PoseFinder::searchAround(const std::vector<Pose>& T_camer
                               return perturb(middle,
                                              stddevs.cwiseProduct(random_.normal6(RandomPurpose::kSearch, number, 0)));
                             }),
-                   effort);
+                   effort, false);
 }
 
 FoundPose PoseFinder::settle(const FoundPose& found, const Pose& T_camera_centre_prior, const Vector6d& variances) {
@@ -129,10 +155,66 @@ FoundPose PoseFinder::settle(const FoundPose& found, const Pose& T_camera_centre
 
 FoundPose PoseFinder::judge(const Pose& T_camera_centre) {
   const PoseAssessment assessment = fine_.assess(T_camera_centre, 0);
-  return {T_camera_centre, assessment, findQuality(assessment)};
+  return {T_camera_centre, assessment, findQuality(assessment), findEvidence(assessment)};
+}
+
+/// Large planes are there without the object, and say nothing for it where it would lie in them.
+void PoseFinder::findBackground() {
+  if (has_background_) return;
+  has_background_ = true;
+  planes_ = findPlanes(depth_, camera_, max_depth_m_);
+  background_.clear();
+  std::vector<BackgroundPlane> background;
+  for (const ImagePlane& plane : planes_) {
+    if (!isLargerThan(plane, diameter_m_)) continue;
+    background_.push_back(plane);
+    background.push_back({plane.normal, plane.offset_m});
+  }
+  coarse_.setBackground(background);
+  fine_.setBackground(background);
+}
+
+void PoseFinder::listNeighbours() {
+  const int rows = depth_.height / step_px_ + 1, cols = depth_.width / step_px_ + 1;
+  point_at_.assign(static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols), -1);
+  for (std::size_t i = 0; i < image_points_.size(); ++i) {
+    const Eigen::Vector2d pixel = camera_.project(image_points_[i].point);
+    const int row = static_cast<int>(pixel.y()) / step_px_, col = static_cast<int>(pixel.x()) / step_px_;
+    if (row < 0 || row >= rows || col < 0 || col >= cols) continue;
+    point_at_[static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(col)] =
+        static_cast<int>(i);
+  }
+}
+
+std::optional<Pose> PoseFinder::drawPair(std::uint64_t number) const {
+  constexpr std::uint32_t kTries = 4;
+  const auto uniform = [&](std::uint32_t index) { return random_.uniform(RandomPurpose::kSearch, number, index); };
+  const OrientedPoint& first =
+      image_points_[static_cast<std::size_t>(uniform(0) * static_cast<double>(image_points_.size()))];
+  const Eigen::Vector2d pixel = camera_.project(first.point);
+  const double reach_px = camera_.fx * pairs_.mostDistanceM() / first.point.z();
+  const int rows = depth_.height / step_px_ + 1, cols = depth_.width / step_px_ + 1;
+  for (std::uint32_t k = 0; k < kTries; ++k) {
+    const auto at = [&](std::uint32_t index) { return uniform(1 + 7 * k + index); };
+    const double turn = 2.0 * M_PI * at(0), radius = reach_px * at(1);  // denser near the first: more of them on it
+    const int row = static_cast<int>(std::floor((pixel.y() + radius * std::sin(turn)) / step_px_));
+    const int col = static_cast<int>(std::floor((pixel.x() + radius * std::cos(turn)) / step_px_));
+    if (row < 0 || row >= rows || col < 0 || col >= cols) continue;
+    const int second =
+        point_at_[static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(col)];
+    if (second < 0) continue;
+    const auto pose =
+        pairs_.layOn(first, image_points_[static_cast<std::size_t>(second)], {at(2), at(3), at(4), at(5)}, at(6));
+    if (pose) return pose;
+  }
+  return std::nullopt;
 }
 
 Pose PoseFinder::drawAnywhere(std::uint64_t number) const {
+  constexpr std::uint64_t kSingleEvery = 8;  // of one point: an object may show hardly more
+  if (number % kSingleEvery != 0) {
+    if (const auto pose = drawPair(number)) return *pose;
+  }
   // Additive recurrences: all pairs of points with all turns, evenly however many are taken.
   const auto fraction = [&](double step) {
     const double value = static_cast<double>(number) * step;
@@ -199,27 +281,32 @@ void PoseFinder::climbAll(DepthLikelihood& likelihood, const ClimbSchedule& sche
   pool_->run(static_cast<int>(poses.size()), std::cref(task));
 }
 
-std::vector<FoundPose> PoseFinder::climbBest(const std::vector<Pose>& drawn, const SearchEffort& effort) {
-  const auto quality = [](DepthLikelihood& likelihood, double width_m) {
-    return [&likelihood, width_m](const Pose& pose, int thread) {
-      return findQuality(likelihood.assess(pose, thread, width_m));
+std::vector<FoundPose> PoseFinder::climbBest(const std::vector<Pose>& drawn, const SearchEffort& effort,
+                                             bool by_evidence) {
+  const auto value = [by_evidence](DepthLikelihood& likelihood, double width_m) {
+    return [&likelihood, width_m, by_evidence](const Pose& pose, int thread) {
+      const PoseAssessment assessment = likelihood.assess(pose, thread, width_m);
+      return by_evidence ? findEvidence(assessment) : findQuality(assessment);
     };
   };
-  std::vector<Pose> poses = distinctBest(
-      rank(drawn, [this](const Pose& pose,
-                         int thread) { return fitQuality(coarse_.countFit(pose, kMatchToleranceM, thread)); }),
-      effort.climbed, 0.0);
+  const auto fit = [this, by_evidence](const Pose& pose, int thread) {
+    const TileFit counted = coarse_.countFit(pose, kMatchToleranceM, thread);
+    const double quality = fitQuality(counted);
+    return by_evidence && quality > 0.0 ? quality * std::sqrt(counted.matching) : quality;
+  };
+  std::vector<Pose> poses = distinctBest(rank(drawn, fit), effort.climbed, 0.0);
   climbAll(coarse_, {0.02, 0.006, 0}, poses);
-  poses = distinctBest(rank(poses, quality(coarse_, 0.008)), effort.refined * 4, 0.03);
+  poses = distinctBest(rank(poses, value(coarse_, 0.008)), effort.refined * 4, 0.03);
   climbAll(coarse_, {0.012, 0.004, 3}, poses);
-  poses = distinctBest(rank(poses, quality(coarse_, 0.004)), effort.refined, 0.02);
+  poses = distinctBest(rank(poses, value(coarse_, 0.004)), effort.refined, 0.02);
   climbAll(fine_, {0.006, 0.003, 2}, poses);
-  poses = distinctBest(rank(poses, quality(fine_, 0.001)), kFinalCandidates, 0.005);
+  poses = distinctBest(rank(poses, value(fine_, 0.001)), kFinalCandidates, 0.005);
   climbAll(fine_, {0.002, 0.0015, 8}, poses);
   std::vector<FoundPose> found;
   for (const Pose& pose : poses) found.push_back(judge(pose));
-  std::stable_sort(found.begin(), found.end(),
-                   [](const FoundPose& a, const FoundPose& b) { return a.quality > b.quality; });
+  std::stable_sort(found.begin(), found.end(), [by_evidence](const FoundPose& a, const FoundPose& b) {
+    return by_evidence ? a.evidence > b.evidence : a.quality > b.quality;
+  });
   return found;
 }
 

@@ -9,6 +9,7 @@ namespace {
 constexpr SearchEffort kAround{3000, 400, 60, 16};
 constexpr SearchEffort kEverywhere{6000, 800, 100, 16};
 constexpr SearchEffort kEverywhereAtTheStart{40000, 4000, 800, 40};
+constexpr SearchEffort kOnTable{20000, 2000, 400, 24};
 constexpr SearchEffort kOfSurvivors{60, 60, 20, 10};
 constexpr std::size_t kSurvivors = 6;
 constexpr double kSameM = 0.05, kSameRad = 0.5;  // from image to image
@@ -50,15 +51,10 @@ const FoundPose& mostExplaining(const std::vector<FoundPose>& found) {
 }
 
 /// Quality that a pose needs to be taken for the object.
-/// @param searches so far since the start: with nothing known, a wrong pose may be met before the right one.
-double neededQuality(const Pose& pose, const SearchRegion& region, bool was_there_before, int searches) {
-  constexpr double kMoreAtFirst = 0.25;
-  constexpr int kPatientSearches = 20;
+double neededQuality(const Pose& pose, const SearchRegion& region, bool was_there_before) {
   constexpr double kNear = 0.4, kFar = 0.62, kFarSquared = 12.0, kSecondLook = 0.06;
-  const double share = region.is_known ? std::min(1.0, squaredDistance(pose, region) / kFarSquared) : 1.0;
-  const double patience =
-      region.is_known ? 0.0 : kMoreAtFirst * std::max(0.0, 1.0 - static_cast<double>(searches) / kPatientSearches);
-  return patience + kNear + (kFar - kNear) * share + (was_there_before ? -kSecondLook : kSecondLook);
+  const double share = std::min(1.0, squaredDistance(pose, region) / kFarSquared);
+  return kNear + (kFar - kNear) * share + (was_there_before ? -kSecondLook : kSecondLook);
 }
 
 double fitOfWhatIsSeen(const PoseAssessment& assessment) {
@@ -79,28 +75,66 @@ std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const Pin
                                           const SearchRegion& region) {
   finder_->setImage(depth, camera, std::max(0.2, region.T_camera_centre.translation().z()), region.occluders);
   found_.clear();
-  if (region.is_known) found_ = finder_->searchAround({region.T_camera_centre}, region.variances, kAround);
+  if (!region.is_known) return searchAnywhere(region);
+  found_ = finder_->searchAround({region.T_camera_centre}, region.variances, kAround);
   const auto add = [this](const std::vector<FoundPose>& more) {
     found_.insert(found_.end(), more.begin(), more.end());
   };
   add(finder_->searchAround(survivors_, survivorVariances(), kOfSurvivors));
-  if (!region.is_known) add(finder_->searchEverywhere(kEverywhereAtTheStart));
-  if (region.is_known && region.everywhere) add(finder_->searchEverywhere(kEverywhere));
+  if (region.everywhere) add(finder_->searchEverywhere(kEverywhere));
 
   const auto margin = [&](const FoundPose& one) {
-    return one.quality - neededQuality(one.T_camera_centre, region, wasThereBefore(one.T_camera_centre), searches_);
+    return one.quality - neededQuality(one.T_camera_centre, region, wasThereBefore(one.T_camera_centre));
   };
   std::stable_sort(found_.begin(), found_.end(),
                    [&](const FoundPose& a, const FoundPose& b) { return margin(a) > margin(b); });
-  ++searches_;
   const bool is_sure = !found_.empty() && margin(found_.front()) > 0.0;
   survivors_.clear();
   for (const FoundPose& one : found_) {
     if (survivors_.size() < kSurvivors) survivors_.push_back(one.T_camera_centre);
   }
   if (!is_sure) return std::nullopt;
-  if (!region.is_known) return mostExplaining(found_).T_camera_centre;
   return finder_->settle(likeliestOfTheBest(found_, region), region.T_camera_centre, region.variances).T_camera_centre;
+}
+
+/// With nothing known a wrong pose may be met before the right one: the winner must be better than the others and stay
+/// so over some images, for which each search offers it new rivals.
+std::optional<Pose> Reacquisition::searchAnywhere(const SearchRegion& region) {
+  constexpr double kElsewhereM = 0.04;
+  constexpr double kNeeded = 0.72, kLessPerImage = 0.08, kLeastNeeded = 0.40, kClearly = 1.6, kMoreIfNotClear = 0.15;
+  found_ = region.on_table ? finder_->searchOnTable(kOnTable) : finder_->searchEverywhere(kEverywhereAtTheStart);
+  const std::vector<FoundPose> again = finder_->searchAround(survivors_, survivorVariances(), kOfSurvivors);
+  found_.insert(found_.end(), again.begin(), again.end());
+  std::stable_sort(found_.begin(), found_.end(),
+                   [](const FoundPose& a, const FoundPose& b) { return a.evidence > b.evidence; });
+  survivors_.clear();
+  if (found_.empty()) return std::nullopt;
+  const FoundPose& best = found_.front();
+  const Vector6d moved = difference(best.T_camera_centre, winner_);
+  same_winner_ = moved.head<3>().norm() < kSameM && moved.tail<3>().norm() < kSameRad ? same_winner_ + 1 : 0;
+  winner_ = best.T_camera_centre;
+  double rival = 0.0;
+  std::vector<FoundPose> same_place;
+  for (const FoundPose& one : found_) {
+    const bool is_elsewhere = (one.T_camera_centre.translation() - winner_.translation()).norm() > kElsewhereM;
+    if (is_elsewhere) rival = std::max(rival, one.evidence);
+    if (!is_elsewhere) same_place.push_back(one);
+    if (survivors_.size() < kSurvivors) survivors_.push_back(one.T_camera_centre);
+  }
+  const double needed = std::max(kLeastNeeded, kNeeded - kLessPerImage * same_winner_) +
+                        (best.evidence > kClearly * rival ? 0.0 : kMoreIfNotClear);
+  if (best.quality < needed) return std::nullopt;
+  return mostExplaining(same_place).T_camera_centre;
+}
+
+std::vector<Pose> Reacquisition::lookAround(const DepthImageView& depth, const PinholeCamera& camera,
+                                            const Pose& T_camera_centre, const Vector6d& variances) {
+  finder_->setImage(depth, camera, std::max(0.2, T_camera_centre.translation().z()));
+  std::vector<Pose> poses;
+  for (const FoundPose& one : finder_->searchAround({T_camera_centre}, variances, kAround)) {
+    poses.push_back(one.T_camera_centre);
+  }
+  return poses;
 }
 
 std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const PinholeCamera& camera,

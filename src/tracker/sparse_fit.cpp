@@ -19,6 +19,13 @@ SparseFit::SparseFit(const std::vector<OrientedPoint>& points, double diameter_m
   for (std::size_t i = 0; i < points.size(); i += stride) {
     points_.push_back({points[i].point.cast<float>(), points[i].normal.cast<float>()});
   }
+  // Neighbours in the list are neighbours on the object: the first few shall be from all over it.
+  std::vector<Point> spread;
+  constexpr std::size_t kApart = 5;
+  for (std::size_t first = 0; first < kApart; ++first) {
+    for (std::size_t i = first; i < points_.size(); i += kApart) spread.push_back(points_[i]);
+  }
+  points_ = spread;
 }
 
 void SparseFit::setImage(const DepthImageView& depth, const PinholeCamera& camera) {
@@ -40,7 +47,10 @@ double SparseFit::match(const Pose& T_camera_centre) const {
   const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
   const auto cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy);
   int facing = 0, matching = 0, through = 0;
+  std::size_t looked_at = 0;
   for (const Point& point : points_) {
+    constexpr std::size_t kFirstLook = 24;
+    if (looked_at++ == kFirstLook && matching < through) break;  // most poses are nowhere near
     const Eigen::Vector3f p = R * point.point + t;
     constexpr float kLeastCosine = 0.25f;
     if ((R * point.normal).dot(p) > -kLeastCosine * p.norm()) continue;

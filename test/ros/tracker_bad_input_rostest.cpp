@@ -222,7 +222,7 @@ TEST_F(BadInput, MissingMeshFile) {
 
 TEST_F(BadInput, ModesAndTimeoutsThatDoNotExist) {
   InitializeTracker call;
-  call.request.mode = InitializeTracker::Request::ON_TABLE;
+  call.request.mode = InitializeTracker::Request::GLOBAL + 1;
   call.request.pose = goodPose();
   ASSERT_TRUE(ros::service::call(std::string(kName) + "/initialize", call));
   EXPECT_FALSE(call.response.success);

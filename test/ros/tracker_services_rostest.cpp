@@ -5,6 +5,8 @@
 #include "rostest_main.h"
 #include "tracker_harness.h"
 
+#include "depth_object_tracker/geometry/stable_poses.h"
+
 #include <depth_object_tracker/Grasp.h>
 #include <depth_object_tracker/LoadObject.h>
 #include <depth_object_tracker/SetGrasp.h>
@@ -28,6 +30,39 @@ typename Service::Response callService(const std::string& service, typename Serv
   call.request = request;
   EXPECT_TRUE(ros::service::call(std::string(kName) + "/" + service, call)) << service;
   return call.response;
+}
+
+constexpr double kTableBelowM = 0.45;  // under the camera
+
+/// Up from the table, optical frame: the camera looks down by 45 degrees.
+Eigen::Vector3d testTableNormal() {
+  return Eigen::Vector3d(0.0, -1.0, -1.0).normalized();
+}
+
+/// The test's object as it rests most likely, turned somehow, before the camera.
+Pose restingOnTestTable() {
+  const TriangleMesh mesh = loadMesh(testMeshFile());
+  const Eigen::Vector3d centre = surfaceCentroid(mesh), up = testTableNormal();
+  const StablePose rest = stablePoses(mesh, centre).front();
+  Pose pose = Pose::Identity();
+  pose.linear() = expSo3(0.7 * up) * Eigen::Quaterniond::FromTwoVectors(rest.up, up).toRotationMatrix();
+  const Eigen::Vector3d foot = kTableBelowM / -up.z() * Eigen::Vector3d::UnitZ();
+  pose.translation() = foot + rest.height_m * up - pose.linear() * centre;
+  return pose;
+}
+
+sensor_msgs::ImagePtr imageOfTestTable(TestScene& scene, const Pose& T_camera_object) {
+  const PinholeCamera camera = testCamera();
+  std::vector<float> depth_m = scene.depth(T_camera_object);
+  for (int row = 0; row < camera.height; ++row) {
+    for (int col = 0; col < camera.width; ++col) {
+      const double table = -kTableBelowM / testTableNormal().dot(camera.ray(col, row));
+      float& depth = depth_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(camera.width) +
+                             static_cast<std::size_t>(col)];
+      if (table > 0.0) depth = std::min(depth, static_cast<float>(table));
+    }
+  }
+  return makeUint16Image(depth_m, camera.width, camera.height);
 }
 
 class Services : public testing::Test {
@@ -122,6 +157,32 @@ TEST_F(Services, InitializeFindsTheObjectInTheWholeImage) {
   caller.join();
   EXPECT_TRUE(response.success) << response.message;
   EXPECT_NEAR(response.pose.pose.pose.position.z, testPose().translation().z(), 0.01);
+  EXPECT_TRUE(tracker().initialise());
+  tracker().expectTracking();
+}
+
+TEST_F(Services, InitializeFindsTheObjectOnATable) {
+  EXPECT_TRUE(callService<std_srvs::Trigger>("reset").success);
+  const Pose T_camera_object = restingOnTestTable();
+  InitializeTracker::Request request;
+  request.mode = InitializeTracker::Request::ON_TABLE;
+  request.timeout_s = 600.0;
+  std::atomic<bool> answered{false};
+  InitializeTracker::Response response;
+  std::thread caller([&] {
+    response = callService<InitializeTracker>("initialize", request);
+    answered = true;
+  });
+  const bool came = waitUntil([&] {
+    tracker().setStamp(tracker().stamp() + ros::Duration(1.0 / 30.0));
+    tracker().send(imageOfTestTable(tracker().scene(), T_camera_object));
+    return answered.load();
+  });
+  if (!came) callService<std_srvs::Trigger>("reset");  // ends the waiting
+  caller.join();
+  EXPECT_TRUE(response.success) << response.message;
+  const auto& p = response.pose.pose.pose.position;
+  EXPECT_LT((Eigen::Vector3d(p.x, p.y, p.z) - T_camera_object.translation()).norm(), 0.01);
   EXPECT_TRUE(tracker().initialise());
   tracker().expectTracking();
 }

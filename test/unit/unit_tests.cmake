@@ -5,9 +5,11 @@ add_tracker_test(geometry_unit_tests SOURCES
   unit/mesh_loader_test.cpp
   unit/pinhole_camera_test.cpp
   unit/pose_test.cpp
+  unit/stable_poses_test.cpp
   unit/symmetry_test.cpp
   unit/triangle_mesh_test.cpp)
 add_tracker_test(input_check_unit_tests SOURCES unit/input_check_test.cpp)
+add_tracker_test(plane_finder_unit_tests SOURCES unit/plane_finder_test.cpp)
 add_tracker_test(parameter_unit_tests SOURCES
   unit/object_model_test.cpp
   unit/tracker_parameters_test.cpp)

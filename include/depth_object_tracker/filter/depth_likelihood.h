@@ -59,6 +59,8 @@ class DepthLikelihood : public PoseLikelihood {
 
   /// Makes the whole image available, for poses anywhere in it. @param level_error_m [m] of the mesh that is rendered.
   void prepareWholeImage(double level_error_m);
+  /// Planes that are there without the object, of what is prepared; see MeasuredImage.
+  void setBackground(const std::vector<BackgroundPlane>& planes) { image_.setBackground(planes); }
   /// Known occluders for this image; see MeasuredImage.
   void setOccluders(const std::vector<float>& depth_m) { image_.setOccluders(depth_m); }
   void setTakenSurfaces(const std::vector<float>& depth_m) { image_.setTakenSurfaces(depth_m); }

@@ -11,7 +11,7 @@ namespace depth_object_tracker {
 /// Cells with a reading, by what the reading says.
 struct TileFit {
   int covered = 0;    ///< covered by the object, with or without a reading
-  int matching = 0;   ///< covered, measured at the object's surface
+  int matching = 0;   ///< covered, measured at the object's surface, and not on a plane of the background
   int through = 0;    ///< covered, measured behind: the object is not there
   int in_front = 0;   ///< covered, measured in front: occluded
   int beside = 0;     ///< just outside of the outline

@@ -48,6 +48,16 @@ struct PixelPlanes {
   const float* occluder_limit = nullptr;  ///< null where there are no known occluders
 };
 
+/// normal . p = offset_m, optical frame.
+struct BackgroundPlane {
+  Eigen::Vector3d normal;  ///< unit length
+  double offset_m;
+};
+
+/// Of `visible_peak` where a background plane explains the reading just as well as the object would; other readings
+/// have far more.
+constexpr float kBackgroundPeak = 1.0f;
+
 /// What all pixels share.
 struct PixelModel {
   float min_p_occluded_in_front;
@@ -75,6 +85,9 @@ class MeasuredImage {
   /// Surfaces of other things that are seen in this frame, after setImage() and before prepare(): a reading on one of
   /// them is not the object's, but an occluder's or, before it, free space. @param depth_m as above.
   void setTakenSurfaces(const std::vector<float>& depth_m);
+  /// Readings that lie on one of the planes count for "no object" as much as for an object there. Of the pixels that
+  /// are prepared.
+  void setBackground(const std::vector<BackgroundPlane>& planes);
 
   /// Makes pixels in `box`, grown to whole tiles, available; grows the region only. Not thread-safe.
   void prepare(const CellBox& box);

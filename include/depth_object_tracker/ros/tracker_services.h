@@ -41,6 +41,7 @@ class TrackerServices {
   using Start = std::function<void(TrackerSession& session, InitialisationCallback callback)>;
 
   bool initialize(InitializeTracker::Request& request, InitializeTracker::Response& response);
+  bool search(const InitializeTracker::Request& request, InitializeTracker::Response& response);
   bool loadObject(LoadObject::Request& request, LoadObject::Response& response);
   bool setGrasp(SetGrasp::Request& request, SetGrasp::Response& response);
   bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);

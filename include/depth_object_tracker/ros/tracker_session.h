@@ -72,6 +72,9 @@ class TrackerSession {
   /// Starts anew with nothing but the images, from the next one on. @param callback as above.
   void initialiseAnywhere(InitialisationCallback callback);
 
+  /// Likewise, with the object resting on a plane that the images show.
+  void initialiseOnTable(InitialisationCallback callback);
+
   /// True while UNINITIALIZED or LOST with no initial pose under way: a detector's pose is then welcome.
   bool needsPose() const;
 
@@ -133,6 +136,7 @@ class TrackerSession {
   std::string viewFrame(const CameraFrame& frame, FrameOutcome& outcome);
   void warnAboutCalibration(const CameraFrame& frame);
   void checkSetUp(const CameraFrame& frame, const FrameOutcome& outcome);
+  bool startWithoutPose(InitialisationCallback callback);
   std::string applyPendingPose(const FrameOutcome& outcome);
   bool restoreGivenPose(double stamp_s);
   std::string followCamera(const ros::Time& stamp);

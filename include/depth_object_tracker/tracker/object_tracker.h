@@ -8,6 +8,7 @@
 #include "depth_object_tracker/model/control_input.h"
 #include "depth_object_tracker/render/known_occluders.h"
 #include "depth_object_tracker/tracker/object_model.h"
+#include "depth_object_tracker/tracker/plane_finder.h"
 #include "depth_object_tracker/tracker/tracker_config.h"
 #include "depth_object_tracker/tracker/tracker_result.h"
 
@@ -33,6 +34,13 @@ class ObjectTracker {
   /// Starts anew with nothing but the images: INITIALIZING, without a pose, until the object is surely seen. Takes some
   /// tenths of a second of computing an image; needs the informed proposal.
   void initialiseAnywhere();
+
+  /// Likewise, with the object resting on a plane that the images show, turned and placed anyhow: fewer poses are
+  /// tried.
+  void initialiseOnTable();
+
+  /// The plane on which initialiseOnTable() looks, in the last image; nullopt when none was found.
+  std::optional<ImagePlane> table() const;
 
   /// Forgets the object: UNINITIALIZED until the next initialise().
   void reset();

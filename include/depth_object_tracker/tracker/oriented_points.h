@@ -26,16 +26,23 @@ std::optional<OrientedPoint> orientedPointAt(const DepthImageView& depth, const 
                                              double reach_m);
 
 /// Points of a depth image, optical frame, where an object may be seen: not on planes that go on beyond it.
-/// @param object_diameter_m > 0. @param max_depth_m readings beyond are left out. @param step_px >= 1, of the grid of
-/// pixels that are looked at.
+/// @param object_diameter_m > 0. @param reach_m of the patches that the normals are from. @param max_depth_m readings
+/// beyond are left out. @param step_px >= 1, of the grid of pixels that are looked at.
 std::vector<OrientedPoint> imagePoints(const DepthImageView& depth, const PinholeCamera& camera,
-                                       double object_diameter_m, double max_depth_m, int step_px);
+                                       double object_diameter_m, double reach_m, double max_depth_m, int step_px);
+
+/// The same, on large planes too. @param reach_m of the patches that the normals are from.
+std::vector<OrientedPoint> allImagePoints(const DepthImageView& depth, const PinholeCamera& camera, double reach_m,
+                                          double max_depth_m, int step_px);
 
 /// Points all over the surface that can be seen from outside, from `centre_object`, object axes.
 std::vector<OrientedPoint> objectPoints(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object);
 
-/// Of the plane patches above, as a share of the object's diameter.
-constexpr double kPatchReachPerDiameter = 0.07;
+/// Size of an object's parts [m]: its diameter when it is compact, less when it is thin.
+double featureSize(const TriangleMesh& mesh, double diameter_m);
+
+/// Of the plane patches above, as a share of the feature size.
+constexpr double kPatchReachPerSize = 0.07;
 
 /// T_camera_centre that lays the object's point on the image's, normal on normal. @param turn_rad about the normal.
 Pose layOn(const OrientedPoint& image_point, const OrientedPoint& object_point, double turn_rad);

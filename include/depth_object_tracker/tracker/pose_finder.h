@@ -7,10 +7,14 @@
 #include "depth_object_tracker/filter/random.h"
 #include "depth_object_tracker/render/known_occluders.h"
 #include "depth_object_tracker/tracker/oriented_points.h"
+#include "depth_object_tracker/tracker/plane_finder.h"
+#include "depth_object_tracker/tracker/point_pairs.h"
 #include "depth_object_tracker/tracker/sparse_fit.h"
+#include "depth_object_tracker/tracker/table_draws.h"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace depth_object_tracker {
@@ -19,7 +23,8 @@ namespace depth_object_tracker {
 struct FoundPose {
   Pose T_camera_centre = Pose::Identity();
   PoseAssessment assessment;
-  double quality = 0.0;  ///< see findQuality()
+  double quality = 0.0;   ///< see findQuality()
+  double evidence = 0.0;  ///< how much of the image it explains, and how well: between poses, more is likelier
 };
 
 /// How sure one can be that the object, rather than something else, is seen at a pose: 1 when all of it is visible,
@@ -44,10 +49,16 @@ class PoseFinder {
   void setImage(const DepthImageView& depth, const PinholeCamera& camera, double distance_m,
                 KnownOccluders* occluders = nullptr);
 
-  /// Looks everywhere in the image. The best pose first.
+  /// Looks everywhere in the image. The pose with most evidence first.
   std::vector<FoundPose> searchEverywhere(const SearchEffort& effort);
 
-  /// Looks around poses. @param variances [m^2, rad^2] of the displacement, see perturb().
+  /// Looks for the object resting on a plane that the image shows. The pose with most evidence first.
+  std::vector<FoundPose> searchOnTable(const SearchEffort& effort);
+
+  /// The plane of the last searchOnTable(); nullopt when the image shows none.
+  std::optional<ImagePlane> table() const { return table_draws_.table(); }
+
+  /// Looks around poses. The best fit first. @param variances [m^2, rad^2] of the displacement, see perturb().
   std::vector<FoundPose> searchAround(const std::vector<Pose>& T_camera_centre, const Vector6d& variances,
                                       const SearchEffort& effort);
 
@@ -63,6 +74,9 @@ class PoseFinder {
     double quality;
   };
   DepthImageView withoutTaken(KnownOccluders& occluders);
+  void findBackground();
+  void listNeighbours();
+  std::optional<Pose> drawPair(std::uint64_t number) const;
   Pose drawAnywhere(std::uint64_t number) const;
   template <typename Draw>
   std::vector<Pose> drawBest(const SearchEffort& effort, const Draw& draw);
@@ -70,21 +84,27 @@ class PoseFinder {
   std::vector<Ranked> rank(const std::vector<Pose>& poses, const Judge& judge) const;
   std::vector<Pose> distinctBest(const std::vector<Ranked>& ranked, int count, double apart_m) const;
   void climbAll(DepthLikelihood& likelihood, const ClimbSchedule& schedule, std::vector<Pose>& poses) const;
-  std::vector<FoundPose> climbBest(const std::vector<Pose>& poses, const SearchEffort& effort);
+  std::vector<FoundPose> climbBest(const std::vector<Pose>& poses, const SearchEffort& effort, bool by_evidence);
 
-  double diameter_m_;
+  double diameter_m_, feature_m_;
   double radius_m_;
   double max_depth_m_;
   RandomSource random_;
   std::shared_ptr<WorkerPool> pool_;
   std::vector<OrientedPoint> object_points_, image_points_;
+  PointPairs pairs_;
   SparseFit sparse_;
+  TableDraws table_draws_;
   DepthLikelihood coarse_, fine_;
   DepthImageView depth_;
   std::vector<float> free_depth_m_;  // where something else is seen there is no reading
   PixelModelConfig pixel_config_;
   PinholeCamera camera_;
   int step_px_ = 1;
+  bool has_background_ = false;
+  std::vector<ImagePlane> planes_;      // of the image, once has_background_
+  std::vector<ImagePlane> background_;  // those of them that no face of the object can be
+  std::vector<int> point_at_;           // of image_points_, on the grid of every step_px_ pixels; -1: none
   std::uint64_t drawn_ = 0;
   std::vector<Ranked> draws_;  // scratch
 };

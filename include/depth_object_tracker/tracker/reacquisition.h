@@ -16,6 +16,7 @@ struct SearchRegion {
   Vector6d variances = Vector6d::Ones();  ///< [m^2, rad^2]
   bool is_known = true;                   ///< false: anywhere in the image
   bool everywhere = false;                ///< is_known: also in the rest of the image
+  bool on_table = false;                  ///< not is_known: it rests on a plane that the image shows
   KnownOccluders* occluders = nullptr;    ///< the object is not where one of them is seen; null = none
 };
 
@@ -34,7 +35,7 @@ class Reacquisition {
   /// Forgets what was seen in earlier images.
   void restart() {
     survivors_.clear();
-    searches_ = 0;
+    same_winner_ = 0;
   }
 
   /// One image. @return the pose of the object's centre once it is sure: the farther from the expected place, the
@@ -45,16 +46,25 @@ class Reacquisition {
   std::optional<Pose> findBetter(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre,
                                  const OtherPoses& others);
 
+  /// Poses around a given one at which the object may be; for an image in which it is thought to be near.
+  std::vector<Pose> lookAround(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre,
+                               const Vector6d& variances);
+
+  /// The plane on which the object was looked for last; nullopt without one.
+  std::optional<ImagePlane> table() const { return finder_->table(); }
+
   /// What the last search found, surest first.
   const std::vector<FoundPose>& found() const { return found_; }
 
  private:
   bool wasThereBefore(const Pose& T_camera_centre) const;
+  std::optional<Pose> searchAnywhere(const SearchRegion& region);
 
   std::unique_ptr<PoseFinder> finder_;
   std::vector<Pose> survivors_;  // best poses of the image before
   std::vector<FoundPose> found_;
-  int searches_ = 0;  // since restart()
+  Pose winner_ = Pose::Identity();  // of the last search with nothing known
+  int same_winner_ = 0;             // searches in a row that found the winner again
 };
 
 }  // namespace depth_object_tracker

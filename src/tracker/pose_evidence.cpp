@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tracker/pose_evidence.h"
+
+#include "depth_object_tracker/tracker/pose_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace depth_object_tracker {
+
+double fitQuality(const TileFit& fit) {
+  constexpr int kLeastCells = 15;
+  constexpr double kPerContinuedShare = 1.5;
+  if (fit.measured() < kLeastCells) return -std::numeric_limits<double>::infinity();
+  const double continued = static_cast<double>(fit.continued) / std::max(1, fit.beside);
+  return static_cast<double>(fit.matching - fit.through) / fit.measured() - kPerContinuedShare * continued;
+}
+
+double findQuality(const PoseAssessment& assessment) {
+  constexpr int kLeastCells = 10;
+  constexpr double kPerContinuedShare = 2.0, kLeastMeasured = 0.5;
+  if (assessment.measured_pixels < kLeastCells || !(assessment.expected > 0.0)) return 0.0;
+  // Where most of it has no reading nothing is seen of it, however well the rest fits.
+  const double visible = assessment.visible_pixels /
+                         std::max<double>(assessment.measured_pixels, kLeastMeasured * assessment.covered_pixels);
+  const double score = std::min(1.0, assessment.achieved / assessment.expected);
+  const double continued =
+      static_cast<double>(assessment.continued_pixels) / std::max(1, assessment.surrounding_pixels);
+  return std::max(0.0, visible * score * std::abs(score)) * std::max(0.0, 1.0 - kPerContinuedShare * continued);
+}
+
+double findEvidence(const PoseAssessment& assessment) {
+  constexpr double kThroughAtOutline = 0.12, kPerShare = 6.0;
+  if (!(assessment.expected > 0.0)) return 0.0;
+  const double through = static_cast<double>(assessment.through_pixels) / std::max(1, assessment.surrounding_pixels);
+  const double fit = findQuality(assessment) * std::min(1.0, assessment.achieved / assessment.expected);
+  return fit * fit * std::exp(-kPerShare * std::max(0.0, through - kThroughAtOutline)) *
+         std::max(0.0, assessment.log_likelihood);
+}
+
+}  // namespace depth_object_tracker
