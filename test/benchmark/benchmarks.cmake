@@ -30,6 +30,12 @@ else()
   message(STATUS "depth_object_tracker: without stage_benchmarks; Google Benchmark (libbenchmark-dev) was not found")
 endif()
 
+if(WITH_ROBOT)
+  add_executable(kinematics_benchmark ${CMAKE_CURRENT_LIST_DIR}/kinematics_benchmark.cpp)
+  target_link_libraries(kinematics_benchmark PRIVATE depth_object_tracker_robot depth_object_tracker_warnings)
+  target_compile_definitions(kinematics_benchmark PRIVATE PROJECT_SOURCE_FOLDER="${PROJECT_SOURCE_DIR}")
+endif()
+
 if(WITH_ROS)
   set(benchmark_destination ${CATKIN_PACKAGE_BIN_DESTINATION})
 else()

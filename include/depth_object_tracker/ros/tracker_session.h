@@ -147,7 +147,8 @@ class TrackerSession {
   Intrinsics intrinsics_;
   tf2::BufferCore& tf_;
   FrameOptions frames_;
-  std::optional<Pose> T_fixed_camera_;  // at the last image that the tracker saw
+  std::optional<Pose> T_fixed_camera_;    // at the last image that the tracker saw
+  Pose T_now_before_ = Pose::Identity();  // how far the camera has moved in the fixed frame since then
   ThrottledLog log_;
   SelfCheck self_check_;
 
