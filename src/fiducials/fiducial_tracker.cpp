@@ -7,6 +7,33 @@
 namespace depth_object_tracker {
 namespace {
 
+constexpr double kNearestM = 0.05;
+constexpr int kMinWindowPx = 32;
+constexpr double kWindowMarginPx = 40.0;
+constexpr double kWindowMarginShare = 0.3;  // of the object's size in the picture
+
+struct Window {
+  int row = 0, col = 0, rows = 0, cols = 0;
+};
+
+/// The part of the picture in which all tags lie, with room for motion; empty when some are behind the camera.
+Window windowAround(const FiducialMap& map, const Pose& T_view_object, const PinholeCamera& camera,
+                    const GrayImageView& image) {
+  Eigen::AlignedBox2d box;
+  for (const Fiducial& tag : map.tags) {
+    for (const Eigen::Vector3d& corner : tag.corners()) {
+      const Eigen::Vector3d p_view = T_view_object * corner;
+      if (p_view.z() < kNearestM) return {};
+      box.extend(camera.project(p_view));
+    }
+  }
+  const Eigen::Vector2d margin = kWindowMarginShare * box.sizes() + Eigen::Vector2d::Constant(kWindowMarginPx);
+  const Eigen::Vector2d size(image.width, image.height), zero = Eigen::Vector2d::Zero();
+  const Eigen::Vector2i low = (box.min() - margin).cwiseMax(zero).cwiseMin(size).cast<int>();
+  const Eigen::Vector2i high = (box.max() + margin).cwiseMax(zero).cwiseMin(size).cast<int>();
+  return {low.y(), low.x(), high.y() - low.y(), high.x() - low.x()};
+}
+
 FiducialMap checked(FiducialMap map) {
   if (map.tags.empty()) throw std::invalid_argument("the object carries no tag");
   for (const Fiducial& tag : map.tags) drawTag(map.family, tag.id);
@@ -44,17 +71,38 @@ void FiducialTracker::initialise(const Pose& T_camera_object, const Matrix6d& co
 const FiducialEstimate& FiducialTracker::updateStereo(const GrayImageView& left, const GrayImageView& right,
                                                       const StereoCamera& camera, double stamp_s,
                                                       const std::optional<ControlInput>& control) {
-  const auto in_left = detector_.detect(left);
-  points_ = in_left.empty() ? std::vector<FiducialPoint>()
-                            : triangulateTags(map_, in_left, detector_.detect(right), camera, config_.noise);
+  points_.clear();
+  const auto in_left = detect(left, camera.left, 0.0);
+  if (!in_left.empty()) {
+    const auto in_right = detect(right, camera.left, camera.baseline_m);
+    points_ = triangulateTags(map_, in_left, in_right, camera, config_.noise);
+  }
   return update(stamp_s, control);
 }
 
 const FiducialEstimate& FiducialTracker::updateRgbd(const GrayImageView& image, const DepthImageView& depth,
                                                     const PinholeCamera& camera, double stamp_s,
                                                     const std::optional<ControlInput>& control) {
-  points_ = locateTagsByDepth(map_, detector_.detect(image), depth, camera, config_.noise);
+  points_ = locateTagsByDepth(map_, detect(image, camera, 0.0), depth, camera, config_.noise);
   return update(stamp_s, control);
+}
+
+/// Looks where the object was, in time for the next picture; everywhere when it was not seen there.
+std::vector<TagDetection> FiducialTracker::detect(const GrayImageView& image, const PinholeCamera& camera,
+                                                  double along_baseline_m) {
+  if (estimate_.state != FiducialState::kTracking) return detector_.detect(image);
+  const Pose T_view_object = Eigen::Translation3d(-along_baseline_m, 0.0, 0.0) * estimate_.T_camera_object;
+  const Window window = windowAround(map_, T_view_object, camera, image);
+  if (window.cols < kMinWindowPx || window.rows < kMinWindowPx) return detector_.detect(image);
+  GrayImageView part = image;
+  part.data += static_cast<std::size_t>(window.row) * image.step + static_cast<std::size_t>(window.col);
+  part.width = window.cols;
+  part.height = window.rows;
+  std::vector<TagDetection> detections = detector_.detect(part);
+  for (TagDetection& detection : detections) {
+    for (Eigen::Vector2d& corner : detection.corners) corner += Eigen::Vector2d(window.col, window.row);
+  }
+  return detections;
 }
 
 const FiducialEstimate& FiducialTracker::update(double stamp_s, const std::optional<ControlInput>& control) {

@@ -28,7 +28,10 @@ GrayCamera::GrayCamera(const View& view, const TriangleMesh& background, const F
   for (const CoveredPixel& pixel : renderer.render(view.T_view_camera, view.camera)) {
     background_m_[pixelIndex(pixel, view.camera)] = pixel.depth;
   }
+  begin();
   gray_.resize(num_pixels);
+  light();
+  background_gray_ = gray_;
   blurred_.resize(num_pixels);
   picture_.resize(num_pixels);
   RandomSource random(seed, kStream);
@@ -83,6 +86,11 @@ void GrayCamera::light() {
     for (int col = 0; col < view_.camera.width; ++col) {
       const auto index =
           static_cast<std::size_t>(row) * static_cast<std::size_t>(view_.camera.width) + static_cast<std::size_t>(col);
+      // The room is lit already.
+      if (!background_gray_.empty() && depth_m_[index] == background_m_[index]) {
+        gray_[index] = background_gray_[index];
+        continue;
+      }
       const auto lit = static_cast<float>(std::max(0.0, normalAt(row, col).dot(kToLight)));
       gray_[index] = reflectance_[index] * (kAmbient + (1.0f - kAmbient) * lit);
     }

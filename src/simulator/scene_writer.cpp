@@ -17,6 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr int kObjectId = 1;
+constexpr int kNoisyCompression = 1;  // noise does not get smaller by trying longer
 
 double roundedTo(double value, double unit) {
   return std::round(value / unit) * unit;
@@ -69,11 +70,12 @@ std::string numbered(const std::filesystem::path& folder, int number) {
 }
 
 template <typename Pixel>
-void writePicture(const std::string& path, const PinholeCamera& camera, const std::vector<Pixel>& pixels) {
+void writePicture(const std::string& path, const PinholeCamera& camera, const std::vector<Pixel>& pixels,
+                  int compression = 4) {
   const int type = sizeof(Pixel) == 2 ? CV_16UC1 : CV_8UC1;
   // OpenCV's constructor takes non-const memory but imwrite only reads it.
   const cv::Mat picture(camera.height, camera.width, type, const_cast<Pixel*>(pixels.data()));
-  if (!cv::imwrite(path, picture, {cv::IMWRITE_PNG_COMPRESSION, 4})) {
+  if (!cv::imwrite(path, picture, {cv::IMWRITE_PNG_COMPRESSION, compression})) {
     throw std::runtime_error("cannot write " + path);
   }
 }
@@ -152,8 +154,8 @@ void SceneWriter::Implementation::writeMesh(const TriangleMesh& mesh) const {
 void SceneWriter::Implementation::add(const SimulatedFrame& frame) {
   writePicture(numbered(folder_ / "depth", num_frames_), camera_, frame.depth_mm);
   if (stereo_camera_) {
-    writePicture(numbered(folder_ / "stereo/left", num_frames_), *stereo_camera_, frame.left);
-    writePicture(numbered(folder_ / "stereo/right", num_frames_), *stereo_camera_, frame.right);
+    writePicture(numbered(folder_ / "stereo/left", num_frames_), *stereo_camera_, frame.left, kNoisyCompression);
+    writePicture(numbered(folder_ / "stereo/right", num_frames_), *stereo_camera_, frame.right, kNoisyCompression);
   }
   if (num_frames_ % occlusion_every_ == 0) {
     writePicture(numbered(folder_ / "occlusion", num_frames_), camera_, frame.occlusion);

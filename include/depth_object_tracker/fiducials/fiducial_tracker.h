@@ -59,6 +59,7 @@ class FiducialTracker {
   const std::vector<FiducialPoint>& points() const { return points_; }
 
  private:
+  std::vector<TagDetection> detect(const GrayImageView& image, const PinholeCamera& camera, double along_baseline_m);
   const FiducialEstimate& update(double stamp_s, const std::optional<ControlInput>& control);
   void measure(const FiducialPose& measured, double stamp_s);
 

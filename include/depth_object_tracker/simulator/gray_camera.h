@@ -37,7 +37,7 @@ class GrayCamera {
   TagTexture tags_;
   double noise_stddev_;
   std::uint64_t seed_;
-  std::vector<float> background_m_, depth_m_, reflectance_, gray_, blurred_;
+  std::vector<float> background_m_, background_gray_, depth_m_, reflectance_, gray_, blurred_;
   std::vector<float> noise_;  // drawn once; every picture begins elsewhere
   std::vector<std::uint8_t> picture_;
 };
