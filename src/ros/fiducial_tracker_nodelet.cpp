@@ -61,9 +61,7 @@ void FiducialTrackerNodelet::subscribeStereo() {
   image_transport::ImageTransport images(getNodeHandle());
   stereo_ = std::make_unique<message_filters::Synchronizer<StereoPolicy>>(StereoPolicy(kQueueSize), first_image_,
                                                                           first_info_, second_image_, second_info_);
-  stereo_->registerCallback([this](const auto& left, const auto& left_info, const auto& right, const auto& right_info) {
-    onStereo(left, left_info, right, right_info);
-  });
+  stereo_->registerCallback(&FiducialTrackerNodelet::onStereo, this);
   first_image_.subscribe(images, topic("left/image_rect"), kQueueSize);
   first_info_.subscribe(getNodeHandle(), topic("left/camera_info"), kQueueSize);
   second_image_.subscribe(images, topic("right/image_rect"), kQueueSize);
@@ -75,8 +73,7 @@ void FiducialTrackerNodelet::subscribeRgbd() {
   image_transport::ImageTransport images(getNodeHandle());
   rgbd_ = std::make_unique<message_filters::Synchronizer<RgbdPolicy>>(RgbdPolicy(4 * kQueueSize), first_image_,
                                                                       first_info_, second_image_);
-  rgbd_->registerCallback(
-      [this](const auto& image, const auto& info, const auto& depth) { onRgbd(image, info, depth); });
+  rgbd_->registerCallback(&FiducialTrackerNodelet::onRgbd, this);
   first_image_.subscribe(images, topic("rgb/image_rect"), kQueueSize);
   first_info_.subscribe(getNodeHandle(), topic("rgb/camera_info"), kQueueSize);
   second_image_.subscribe(images, topic("depth_registered/image_rect"), kQueueSize);

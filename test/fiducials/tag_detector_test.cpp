@@ -38,7 +38,13 @@ TEST(TagDetector, FindsCornersWithPixelCentresAtIntegers) {
   // The black square begins one module (6 pixels) after the margin; its border lies between two pixel centres.
   const double left = 70 + 6 - 0.5, top = 40 + 6 - 0.5, edge = 8 * 6;
   const Eigen::Vector2d expected[] = {{left, top + edge}, {left + edge, top + edge}, {left + edge, top}, {left, top}};
-  for (std::size_t k = 0; k < 4; ++k) EXPECT_LT((found[0].corners[k] - expected[k]).norm(), 0.1) << k;
+  // Modules with sharp borders: an edge may be seen a fraction of a pixel off, but not all four to the same side.
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_LT((found[0].corners[k] - expected[k]).norm(), 0.25) << k;
+    mean += 0.25 * (found[0].corners[k] - expected[k]);
+  }
+  EXPECT_LT(mean.norm(), 0.2);
 }
 
 TEST(TagDetector, LeavesOutANumberThatIsThereTwice) {

@@ -57,6 +57,7 @@ Errors track(const std::string& mesh, bool with_control) {
     const ControlInput control = reported(before, truth, random);
     const TrackerResult result = tracker.update(scene.view(image), scene.camera(), 10.0 + k * kFrameS,
                                                 with_control ? std::optional<ControlInput>(control) : std::nullopt);
+    if (with_control && k > kSeenFrames + 39) std::printf("%d:%.1f,%s,v%.2f,s%.2f ", k, 1e3 * scene.error(result.T_camera_object, truth), stateName(result.state), result.visible_fraction, result.score);
     if (k >= kSeenFrames) errors.push_back(scene.error(result.T_camera_object, truth));
   }
   return {median(errors), *std::max_element(errors.begin(), errors.end())};
