@@ -146,9 +146,9 @@ void validateTrackerConfig(const TrackerConfig& config) {
   for (const ParameterBinding& binding : bindings()) binding.set(scratch, binding.get(config));
   // A chain that alternates has no power of dt: it could not be split into shorter steps.
   if (config.occlusion.p_visible_given_visible < config.occlusion.p_visible_given_occluded) {
-    throwOutOfRange(
-        "p_visible_given_visible", config.occlusion.p_visible_given_visible,
-        "not less than p_visible_given_occluded (" + formatParameterValue(config.occlusion.p_visible_given_occluded) + ")");
+    throwOutOfRange("p_visible_given_visible", config.occlusion.p_visible_given_visible,
+                    "not less than p_visible_given_occluded (" +
+                        formatParameterValue(config.occlusion.p_visible_given_occluded) + ")");
   }
 }
 
