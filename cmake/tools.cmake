@@ -33,3 +33,11 @@ target_include_directories(initialisation_trials PRIVATE ${CMAKE_CURRENT_SOURCE_
 target_link_libraries(initialisation_trials
   PRIVATE depth_object_tracker_tools depth_object_tracker_simulator depth_object_tracker_warnings CLI11::CLI11
     nlohmann_json::nlohmann_json)
+add_executable(pixel_model_curves src/tools/pixel_model_curves.cpp)
+target_link_libraries(pixel_model_curves PRIVATE depth_object_tracker_core depth_object_tracker_warnings CLI11::CLI11)
+
+if(WITH_FIDUCIALS)
+  add_executable(track_fiducials src/tools/stereo_scene.cpp src/tools/track_fiducials.cpp)
+  target_link_libraries(track_fiducials PRIVATE depth_object_tracker_fiducials depth_object_tracker_tools
+    depth_object_tracker_warnings nlohmann_json::nlohmann_json CLI11::CLI11 opencv_core opencv_imgcodecs)
+endif()

@@ -57,14 +57,14 @@ bool HeldMotion::awaitsControl(double stamp_s, const std::string& camera_frame) 
 }
 
 HeldControl HeldMotion::control(double from_s, double to_s, const std::string& camera_frame,
-                                const Pose& T_camera_object) const {
+                                const Pose& T_camera_object, const Pose& T_now_before) const {
   HeldControl held;
   if (!grasped_) return held;
   held.control.emplace();
   held.control->grasped = true;
   held.control->has_twist = false;
   if (followsLink()) {
-    const HandControl hand = robot()->control(link_, camera_frame, from_s, to_s, T_camera_object);
+    const HandControl hand = robot()->control(link_, camera_frame, from_s, to_s, T_camera_object, T_now_before);
     held.control = hand.control;
     held.problem = hand.problem;
   } else if (followsTwist()) {

@@ -87,7 +87,7 @@ LinkInCamera RobotConnection::locate(const std::string& link, const std::string&
 }
 
 HandControl RobotConnection::control(const std::string& link, const std::string& camera_frame, double from_s,
-                                     double to_s, const Pose& T_camera_object) {
+                                     double to_s, const Pose& T_camera_object, const Pose& T_now_before) {
   HandControl result;
   result.control.grasped = true;
   result.control.has_twist = false;
@@ -97,8 +97,9 @@ HandControl RobotConnection::control(const std::string& link, const std::string&
   const LinkInCamera root_from = locateRoot(camera_frame, from_s), root_to = locateRoot(camera_frame, to_s);
   result.problem = !root_from.problem.empty() ? root_from.problem : root_to.problem;
   if (!result.problem.empty()) return result;
-  result.control = carryWithHand(root_from.T_camera_link * motion.T_root_link_from,
-                                 root_to.T_camera_link * motion.T_root_link_to, T_camera_object, to_s - from_s);
+  result.control =
+      carryWithHand(T_now_before * root_from.T_camera_link * motion.T_root_link_from,
+                    root_to.T_camera_link * motion.T_root_link_to, T_now_before * T_camera_object, to_s - from_s);
   return result;
 }
 

@@ -78,6 +78,7 @@ ros::Time SimulatorNodelet::waitForTracker(SceneSimulator& simulator) {
   // The object rests until the tracker has its first pose, however long the other nodelets take to load.
   while (!publisher_->hasTracker() && (next - begin).toSec() < options_.wait_for_tracker_s) {
     if (!sleepUntil(next)) return next;
+    simulator.setStereo(publisher_->isStereoWanted());
     publisher_->publish(simulator.render(0.0), next);
     next = std::max(next + period, ros::Time::now());
   }
@@ -96,6 +97,7 @@ void SimulatorNodelet::publishImages(SceneSimulator& simulator) {
   for (long tick = 0; sleepUntil(start + ros::Duration(static_cast<double>(tick) / options_.rate_hz));) {
     const double since_start_s = static_cast<double>(tick) / options_.rate_hz;
     const ros::Time stamp = start + ros::Duration(since_start_s);
+    simulator.setStereo(publisher_->isStereoWanted());
     publisher_->publish(simulator.render(since_start_s), stamp);
     ++published_;
     const ros::Time now = ros::Time::now();

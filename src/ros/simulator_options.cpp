@@ -27,13 +27,17 @@ SimulatorOptions loadSimulatorOptions(const ros::NodeHandle& private_node) {
   reader.readName("scenario", scenarioFromName, options.simulation.scenario);
   reader.readName("speed", speedFromName, options.simulation.speed);
   reader.readName("occluders", occludersFromName, options.simulation.occluders);
-  std::string urdf;
-  reader.read("robot_urdf", "the path of a URDF file", urdf);
-  try {
-    if (!urdf.empty()) options.simulation.robot_urdf = resolveMeshUri(urdf, findPackage);
-  } catch (const MeshError& error) {
-    options.problems.push_back("parameter '" + private_node.resolveName("robot_urdf") + "': " + error.what());
-  }
+  const auto readFile = [&](const char* key, const char* expected, std::string& path) {
+    std::string uri;
+    reader.read(key, expected, uri);
+    try {
+      if (!uri.empty()) path = resolveMeshUri(uri, findPackage);
+    } catch (const MeshError& error) {
+      options.problems.push_back("parameter '" + private_node.resolveName(key) + "': " + error.what());
+    }
+  };
+  readFile("robot_urdf", "the path of a URDF file", options.simulation.robot_urdf);
+  readFile("fiducials_file", "the path of a YAML file", options.simulation.fiducials_file);
   int seed = 1;
   reader.read("seed", "a whole number", seed);
   options.simulation.seed = static_cast<std::uint64_t>(seed);

@@ -54,6 +54,10 @@ SimulatorPublisher::SimulatorPublisher(ros::NodeHandle node, ros::NodeHandle pri
   const auto topic = [&](const char* name) { return ros::names::append(name_space, name); };
   camera_ = image_transport::ImageTransport(node).advertiseCamera(topic("camera/depth/image_raw"), 2);
   camera_info_ = *toCameraInfo(config.camera, std_msgs::Header());
+  if (!config.fiducials_file.empty()) {
+    left_ = image_transport::ImageTransport(node).advertiseCamera(topic("stereo/left/image_rect"), 2);
+    right_ = image_transport::ImageTransport(node).advertiseCamera(topic("stereo/right/image_rect"), 2);
+  }
   truth_ = node.advertise<geometry_msgs::PoseStamped>(topic("ground_truth/pose"), 10);
   occlusion_ = node.advertise<sensor_msgs::Image>(topic("ground_truth/occlusion"), 2);
   initial_pose_ = private_node.advertise<geometry_msgs::PoseWithCovarianceStamped>("initial_pose", 1, true);
@@ -75,6 +79,12 @@ void SimulatorPublisher::publishFrames() {
   std::vector<geometry_msgs::TransformStamped> frames{
       frame(kWorldFrame, kCameraLinkFrame, mount.T_world_link),
       frame(kCameraLinkFrame, kCameraOpticalFrame, mount.T_link_camera)};
+  if (!config_.fiducials_file.empty()) {
+    Pose T_camera_left = Pose::Identity();
+    T_camera_left.translation() =
+        Eigen::Vector3d(config_.stereo.left_x_m, config_.stereo.left_y_m, config_.stereo.left_z_m);
+    frames.push_back(frame(kCameraOpticalFrame, kStereoLeftFrame, T_camera_left));
+  }
   if (!root_link_.empty()) frames.push_back(frame(kWorldFrame, root_link_.c_str(), T_world_base_));
   frames_.sendTransform(frames);
 }
@@ -106,7 +116,22 @@ void SimulatorPublisher::publish(const SimulatedFrame& frame, const ros::Time& s
   // The command first: whoever waits for the image's command has it then.
   if (frame.control) publishControl(*frame.control, header);
   publishImage(frame, header);
+  publishStereo(frame, stamp);
   publishTruth(frame, header);
+}
+
+/// As stereo_image_proc does: both pictures carry the left camera's frame; the right P tells the baseline.
+void SimulatorPublisher::publishStereo(const SimulatedFrame& frame, const ros::Time& stamp) {
+  if (frame.left.empty() || !isStereoWanted()) return;
+  std_msgs::Header header;
+  header.stamp = stamp;
+  header.frame_id = kStereoLeftFrame;
+  const auto left_info = toCameraInfo(config_.stereo.camera, header);
+  const auto right_info = boost::make_shared<sensor_msgs::CameraInfo>(*left_info);
+  right_info->P[3] = -right_info->P[0] * config_.stereo.baseline_m;
+  const std::string& encoding = sensor_msgs::image_encodings::MONO8;
+  left_.publish(makeImage(frame.left, config_.stereo.camera, encoding.c_str(), header), left_info);
+  right_.publish(makeImage(frame.right, config_.stereo.camera, encoding.c_str(), header), right_info);
 }
 
 void SimulatorPublisher::publishImage(const SimulatedFrame& frame, const std_msgs::Header& header) {

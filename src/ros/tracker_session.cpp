@@ -165,13 +165,17 @@ std::chrono::steady_clock::time_point TrackerSession::transformDeadline() const 
 /// Tells the tracker how the camera has moved in the fixed frame since the last image; returns why that is not known.
 /// An image from an unknown place is not used: taken as from the last one, it would move the object.
 std::string TrackerSession::followCamera(const ros::Time& stamp) {
+  T_now_before_ = Pose::Identity();
   if (frames_.fixed_frame.empty()) return "";
   const FrameLookup found = lookUpFrame(tf_, frames_.fixed_frame, camera_frame_, stamp, transformDeadline());
   if (!found.problem.empty()) {
     return "image on '" + image_topic_ + "' refused: " + found.problem +
            "; publish tf of the camera, or clear ~fixed_frame for a camera that stands still";
   }
-  if (T_fixed_camera_) object_.tracker->moveCamera(found.T_target_source.inverse() * *T_fixed_camera_);
+  if (T_fixed_camera_) {
+    T_now_before_ = found.T_target_source.inverse() * *T_fixed_camera_;
+    object_.tracker->moveCamera(T_now_before_);
+  }
   T_fixed_camera_ = found.T_target_source;
   return "";
 }
@@ -255,8 +259,8 @@ bool TrackerSession::restoreGivenPose(double stamp_s) {
 }
 
 std::optional<ControlInput> TrackerSession::controlFor(double stamp_s) {
-  const HeldControl held =
-      held_motion_.control(last_stamp_s_.value_or(stamp_s), stamp_s, camera_frame_, last_result_.T_camera_object);
+  const HeldControl held = held_motion_.control(last_stamp_s_.value_or(stamp_s), stamp_s, camera_frame_,
+                                                last_result_.T_camera_object, T_now_before_);
   if (!held.problem.empty()) {
     log_.warn("the object is held, but how it moves is not known; tracking goes on with wider noise: " + held.problem);
   }

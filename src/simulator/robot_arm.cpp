@@ -27,6 +27,7 @@ constexpr double kWindowS = 12.0;  // of the path that a grasp is tried on
 constexpr double kTryStepS = 0.3;
 constexpr double kPalmM = 0.078;  // from the hand's origin to its palm
 constexpr double kPushRad = 0.02;
+constexpr float kReflectance = 0.3f;
 constexpr double kPushPeriodS = 2.3;
 constexpr double kPushS = 0.9;
 const Eigen::Vector3d kBasesWorld[] = {{0.85, 0.75, -0.1}, {0.95, -0.75, -0.1}, {1.2, 0.5, -0.1}, {1.15, -0.5, -0.1}};
@@ -45,8 +46,7 @@ class RobotArm::Implementation {
   Pose held(double t_s) { return objectAt(truePositions(t_s)); }
   Pose believed(double t_s) { return objectAt(motorPositions(t_s)); }
   SimulatedJoints joints(double t_s);
-  void draw(double t_s, const PinholeCamera& camera,
-            const std::function<void(const std::vector<CoveredPixel>&)>& merge);
+  void draw(double t_s, const View& view, const DrawSurface& surface);
 
   std::mutex mutex;
   RobotModel model;
@@ -236,8 +236,7 @@ SimulatedJoints RobotArm::Implementation::joints(double t_s) {
   return joints;
 }
 
-void RobotArm::Implementation::draw(double t_s, const PinholeCamera& camera,
-                                    const std::function<void(const std::vector<CoveredPixel>&)>& merge) {
+void RobotArm::Implementation::draw(double t_s, const View& view, const DrawSurface& surface) {
   const Eigen::VectorXd arm = truePositions(t_s);
   for (Link& link : links_) {
     const std::vector<std::string>& names = link.chain.joints();
@@ -247,7 +246,8 @@ void RobotArm::Implementation::draw(double t_s, const PinholeCamera& camera,
       const auto in_arm = std::find(hand_.joints().begin(), hand_.joints().end(), names[k]) - hand_.joints().begin();
       positions[static_cast<Eigen::Index>(k)] = finger != grasp_.fingers.end() ? finger->second : arm[in_arm];
     }
-    merge(link.renderer.render(T_camera_base_ * link.chain.pose(positions), camera));
+    const Pose T_view_link = view.T_view_camera * T_camera_base_ * link.chain.pose(positions);
+    surface(link.renderer.render(T_view_link, view.camera), kReflectance);
   }
 }
 
@@ -274,10 +274,9 @@ Pose RobotArm::T_world_base() const {
 const std::string& RobotArm::rootLink() const {
   return implementation_->model.rootLink();
 }
-void RobotArm::draw(double t_s, const PinholeCamera& camera,
-                    const std::function<void(const std::vector<CoveredPixel>&)>& merge) {
+void RobotArm::draw(double t_s, const View& view, const DrawSurface& surface) {
   const std::lock_guard<std::mutex> lock(implementation_->mutex);
-  implementation_->draw(t_s, camera, merge);
+  implementation_->draw(t_s, view, surface);
 }
 
 }  // namespace depth_object_tracker

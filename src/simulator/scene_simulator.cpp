@@ -3,15 +3,17 @@
 #include "depth_object_tracker/simulator/scene_simulator.h"
 
 #include "depth_object_tracker/render/depth_renderer.h"
-#include "depth_object_tracker/simulator/arm.h"
 #include "depth_object_tracker/simulator/depth_sensor.h"
-#include "depth_object_tracker/simulator/grasp_chooser.h"
+#include "depth_object_tracker/simulator/hand_and_arm.h"
 #include "depth_object_tracker/simulator/object_motion.h"
 #include "depth_object_tracker/simulator/passing_occluders.h"
 #include "depth_object_tracker/simulator/pixel_index.h"
 #ifdef DEPTH_OBJECT_TRACKER_HAVE_ROBOT
 #include "depth_object_tracker/robot/hand_motion.h"
 #include "depth_object_tracker/simulator/robot_arm.h"
+#endif
+#ifdef DEPTH_OBJECT_TRACKER_HAVE_FIDUCIALS
+#include "depth_object_tracker/simulator/stereo_pair.h"
 #endif
 #include "depth_object_tracker/simulator/robot_signals.h"
 
@@ -26,30 +28,8 @@ constexpr double kGraspWindowS = 20.0;  // over so much of the motion a grasp is
 constexpr std::uint64_t kInitialPoseStream = 110;
 constexpr std::uint64_t kPusherSeedOffset = 7777;
 const Eigen::Vector3d kHumanShoulderWorld(0.8, -0.95, 0.3);
+constexpr float kObjectReflectance = 0.55f, kOccluderReflectance = 0.45f;
 const Eigen::Vector3d kRobotShoulderWorld(0.8, 0.9, 0.75);
-
-// Hand and arm, drawn together.
-class HandAndArm {
- public:
-  HandAndArm(const TriangleMesh& object, const GraspRequest& request)
-      : hand_(chooseGrasp(object, request)),
-        arm_(request.arm),
-        hand_renderer_(hand_.mesh),
-        link_renderers_{DepthRenderer(arm_.meshes()[0]), DepthRenderer(arm_.meshes()[1])} {}
-
-  template <typename Merge>
-  void draw(const Pose& T_camera_object, const PinholeCamera& camera, const Merge& merge) {
-    merge(hand_renderer_.render(T_camera_object, camera));
-    const auto links = arm_.place(T_camera_object * hand_.wrist, T_camera_object.linear() * hand_.wrist_out);
-    for (std::size_t k = 0; k < links.size(); ++k) merge(link_renderers_[k].render(links[k], camera));
-  }
-
- private:
-  Hand hand_;
-  Arm arm_;
-  DepthRenderer hand_renderer_;
-  std::array<DepthRenderer, 2> link_renderers_;
-};
 
 TriangleMesh checked(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) throw std::invalid_argument("the object's mesh has no triangle");
@@ -67,6 +47,7 @@ class SceneSimulator::Implementation {
   Pose roughInitialPose(double error_m, double error_rad);
   const SimulationConfig& config() const { return config_; }
   RobotArm* robotArm();
+  void setStereo(bool enabled) { stereo_enabled_ = enabled; }
 
  private:
   Pose held(double stamp_s);
@@ -75,9 +56,12 @@ class SceneSimulator::Implementation {
   HandAndArm makeHolder(HandKind kind, std::uint64_t seed);
   void drawObject();
   void mergeNearest(const std::vector<CoveredPixel>& pixels);
-  void drawHands(double stamp_s);
-  void drawOccluder(double stamp_s);
+  void drawHands(double stamp_s, const View& view, const DrawSurface& surface);
+  void placeOccluder(double stamp_s);
+  void drawOccluder(const View& view, const DrawSurface& surface);
   void finishMask();
+  void makeStereo(const TriangleMesh& world);
+  void renderStereo(double stamp_s);
 
   SimulationConfig config_;
   TriangleMesh object_;
@@ -94,12 +78,17 @@ class SceneSimulator::Implementation {
   std::unique_ptr<RobotArm> arm_;
   std::optional<Belief> first_belief_, last_belief_;
 #endif
+#ifdef DEPTH_OBJECT_TRACKER_HAVE_FIDUCIALS
+  std::optional<StereoPair> stereo_;
+#endif
   std::optional<HandAndArm> holder_, pusher_;
   std::optional<DepthRenderer> occluder_renderer_;
+  std::optional<Pose> T_camera_occluder_;
   std::size_t occluder_number_ = 0;
   std::vector<float> background_m_, depth_m_;
   std::vector<CoveredPixel> object_pixels_;
   std::uint64_t frame_number_ = 0;
+  bool stereo_enabled_ = true;
   SimulatedFrame frame_;
 };
 
@@ -113,7 +102,8 @@ SceneSimulator::Implementation::Implementation(const TriangleMesh& object, const
       object_renderer_(object) {
   const std::size_t num_pixels = static_cast<std::size_t>(config.camera.width) * config.camera.height;
   background_m_.assign(num_pixels, kNothingM);
-  DepthRenderer world(makeStaticWorld(config));
+  const TriangleMesh world_mesh = makeStaticWorld(config);
+  DepthRenderer world(world_mesh);
   for (const CoveredPixel& pixel : world.render(Pose::Identity(), config.camera)) {
     background_m_[pixelIndex(pixel, config.camera)] = pixel.depth;
   }
@@ -124,6 +114,7 @@ SceneSimulator::Implementation::Implementation(const TriangleMesh& object, const
   if (robot && !config.robot_urdf.empty()) makeRobot();
   if (robot && config.robot_urdf.empty()) holder_ = makeHolder(HandKind::kGripper, config.seed);
   if (config.scenario == Scenario::kSlip) pusher_ = makeHolder(HandKind::kHuman, config.seed + kPusherSeedOffset);
+  if (!config.fiducials_file.empty()) makeStereo(world_mesh);
 }
 
 HandAndArm SceneSimulator::Implementation::makeHolder(HandKind kind, std::uint64_t seed) {
@@ -137,6 +128,7 @@ HandAndArm SceneSimulator::Implementation::makeHolder(HandKind kind, std::uint64
   request.camera = config_.camera;
   request.seed = seed;
   request.wanted_coverage = kind == HandKind::kHuman ? random.uniform(0.1, 0.25) : random.uniform(0.05, 0.15);
+  if (config_.hand_coverage >= 0.0) request.wanted_coverage = config_.hand_coverage;
   request.arm.shoulder_camera = T_camera_world * (kind == HandKind::kHuman ? kHumanShoulderWorld : kRobotShoulderWorld);
   if (kind == HandKind::kGripper) {
     request.arm.wrist_radius_m = 0.042;
@@ -154,9 +146,13 @@ const SimulatedFrame& SceneSimulator::Implementation::render(double stamp_s) {
   if (config_.scenario == Scenario::kRobot || config_.scenario == Scenario::kSlip) believe(stamp_s);
   depth_m_ = background_m_;
   drawObject();
-  drawHands(stamp_s);
-  drawOccluder(stamp_s);
+  const View view{config_.camera, Pose::Identity()};
+  const auto merge = [this](const std::vector<CoveredPixel>& pixels, float) { mergeNearest(pixels); };
+  drawHands(stamp_s, view, merge);
+  placeOccluder(stamp_s);
+  drawOccluder(view, merge);
   finishMask();
+  renderStereo(stamp_s);
   sensor_.measure(depth_m_, frame_number_++, frame_.depth_mm.data());
   return frame_;
 }
@@ -224,12 +220,11 @@ void SceneSimulator::Implementation::mergeNearest(const std::vector<CoveredPixel
   }
 }
 
-void SceneSimulator::Implementation::drawHands(double stamp_s) {
-  const auto merge = [this](const std::vector<CoveredPixel>& pixels) { mergeNearest(pixels); };
+void SceneSimulator::Implementation::drawHands(double stamp_s, const View& view, const DrawSurface& surface) {
 #ifdef DEPTH_OBJECT_TRACKER_HAVE_ROBOT
-  if (arm_) arm_->draw(stamp_s, config_.camera, merge);
+  if (arm_) arm_->draw(stamp_s, view, surface);
 #endif
-  if (holder_) holder_->draw(held(stamp_s), config_.camera, merge);
+  if (holder_) holder_->draw(held(stamp_s), view, surface);
   const double presence = pusher_ ? motion_.pusherPresence(stamp_s) : 0.0;
   if (presence <= 0.0) return;
   // The pushing hand comes from its shoulder's side and goes back there.
@@ -237,18 +232,48 @@ void SceneSimulator::Implementation::drawHands(double stamp_s) {
   const Eigen::Vector3d to_shoulder = T_camera_world * kHumanShoulderWorld - frame_.T_camera_object.translation();
   Pose T_camera_pusher = frame_.T_camera_object;
   T_camera_pusher.translation() += 0.7 * (1.0 - presence) * to_shoulder;
-  pusher_->draw(T_camera_pusher, config_.camera, merge);
+  pusher_->draw(T_camera_pusher, view, surface);
 }
 
-void SceneSimulator::Implementation::drawOccluder(double stamp_s) {
+void SceneSimulator::Implementation::placeOccluder(double stamp_s) {
+  T_camera_occluder_.reset();
   const auto placed = occluders_.at(stamp_s, frame_.T_camera_object);
   if (!placed) return;
   if (placed->number != occluder_number_) {
     occluder_renderer_.emplace(occluders_.mesh());
     occluder_number_ = placed->number;
   }
-  mergeNearest(occluder_renderer_->render(placed->T_camera_occluder, config_.camera));
+  T_camera_occluder_ = placed->T_camera_occluder;
 }
+
+void SceneSimulator::Implementation::drawOccluder(const View& view, const DrawSurface& surface) {
+  if (!T_camera_occluder_) return;
+  surface(occluder_renderer_->render(view.T_view_camera * *T_camera_occluder_, view.camera), kOccluderReflectance);
+}
+
+#ifdef DEPTH_OBJECT_TRACKER_HAVE_FIDUCIALS
+void SceneSimulator::Implementation::makeStereo(const TriangleMesh& world) {
+  stereo_.emplace(config_.stereo, world, loadFiducialMap(config_.fiducials_file), config_.seed);
+}
+
+void SceneSimulator::Implementation::renderStereo(double stamp_s) {
+  frame_.left.clear();
+  frame_.right.clear();
+  if (!stereo_ || !stereo_enabled_) return;
+  const auto draw_scene = [&](const View& view, const DrawSurface& surface) {
+    surface(object_renderer_.render(view.T_view_camera * frame_.T_camera_object, view.camera), kObjectReflectance);
+    drawHands(stamp_s, view, surface);
+    drawOccluder(view, surface);
+  };
+  stereo_->render(draw_scene, frame_.T_camera_object, frame_number_, frame_.left, frame_.right);
+}
+#else
+void SceneSimulator::Implementation::makeStereo(const TriangleMesh&) {
+  throw std::invalid_argument("fiducials_file is set, but this was built without fiducials (libapriltag-dev)");
+}
+
+void SceneSimulator::Implementation::renderStereo(double) {}
+#endif
 
 void SceneSimulator::Implementation::finishMask() {
   frame_.object_pixels = static_cast<int>(object_pixels_.size());
@@ -281,6 +306,9 @@ Pose SceneSimulator::truth(double stamp_s) {
 }
 Pose SceneSimulator::roughInitialPose(double error_m, double error_rad) {
   return implementation_->roughInitialPose(error_m, error_rad);
+}
+void SceneSimulator::setStereo(bool enabled) {
+  implementation_->setStereo(enabled);
 }
 RobotArm* SceneSimulator::robot() {
   return implementation_->robotArm();

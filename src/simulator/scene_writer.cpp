@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 
 namespace depth_object_tracker {
@@ -16,6 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr int kObjectId = 1;
+constexpr int kNoisyCompression = 1;  // noise does not get smaller by trying longer
 
 double roundedTo(double value, double unit) {
   return std::round(value / unit) * unit;
@@ -68,11 +70,12 @@ std::string numbered(const std::filesystem::path& folder, int number) {
 }
 
 template <typename Pixel>
-void writePicture(const std::string& path, const PinholeCamera& camera, const std::vector<Pixel>& pixels) {
+void writePicture(const std::string& path, const PinholeCamera& camera, const std::vector<Pixel>& pixels,
+                  int compression = 4) {
   const int type = sizeof(Pixel) == 2 ? CV_16UC1 : CV_8UC1;
   // OpenCV's constructor takes non-const memory but imwrite only reads it.
   const cv::Mat picture(camera.height, camera.width, type, const_cast<Pixel*>(pixels.data()));
-  if (!cv::imwrite(path, picture, {cv::IMWRITE_PNG_COMPRESSION, 4})) {
+  if (!cv::imwrite(path, picture, {cv::IMWRITE_PNG_COMPRESSION, compression})) {
     throw std::runtime_error("cannot write " + path);
   }
 }
@@ -83,10 +86,12 @@ class SceneWriter::Implementation {
  public:
   Implementation(const std::string& folder, const ObjectModel& object, const PinholeCamera& camera,
                  const Pose& T_camera_object_init, int occlusion_every);
+  void addStereo(const StereoPairConfig& config, const std::string& fiducials_file);
   void add(const SimulatedFrame& frame);
   void finish();
 
  private:
+  void createFolder(const std::string& name) const;
   std::ofstream open(const std::string& name) const;
   void writeJson(const std::string& name, const Json& json) const { open(name) << json.dump() << '\n'; }
   void writeMesh(const TriangleMesh& mesh) const;
@@ -94,6 +99,7 @@ class SceneWriter::Implementation {
 
   std::filesystem::path folder_;
   PinholeCamera camera_;
+  std::optional<PinholeCamera> stereo_camera_;
   int occlusion_every_;
   int num_frames_ = 0;
   Json scene_camera_ = Json::object(), scene_gt_ = Json::object(), scene_control_ = Json::object();
@@ -105,14 +111,29 @@ SceneWriter::Implementation::Implementation(const std::string& folder, const Obj
                                             const PinholeCamera& camera, const Pose& T_camera_object_init,
                                             int occlusion_every)
     : folder_(folder), camera_(camera), occlusion_every_(occlusion_every) {
-  std::error_code error;
-  for (const char* part : {"depth", "occlusion"}) {
-    std::filesystem::create_directories(folder_ / part, error);
-    if (error) throw std::runtime_error("cannot create " + (folder_ / part).string() + ": " + error.message());
-  }
+  for (const char* part : {"depth", "occlusion"}) createFolder(part);
   writeMesh(object.mesh);
   writeJson("models_info.json", modelsInfo(object));
   writeJson("init.json", poseJson(T_camera_object_init));
+}
+
+void SceneWriter::Implementation::createFolder(const std::string& name) const {
+  std::error_code error;
+  std::filesystem::create_directories(folder_ / name, error);
+  if (error) throw std::runtime_error("cannot create " + (folder_ / name).string() + ": " + error.message());
+}
+
+void SceneWriter::Implementation::addStereo(const StereoPairConfig& config, const std::string& fiducials_file) {
+  for (const char* part : {"stereo/left", "stereo/right"}) createFolder(part);
+  std::error_code error;
+  const auto copy = std::filesystem::copy_options::overwrite_existing;
+  std::filesystem::copy_file(fiducials_file, folder_ / "fiducials.yaml", copy, error);
+  if (error) throw std::runtime_error("cannot copy " + fiducials_file + ": " + error.message());
+  const PinholeCamera& camera = config.camera;
+  stereo_camera_ = camera;
+  writeJson("stereo.json", {{"cam_K", {camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1}},
+                            {"baseline_m", config.baseline_m},
+                            {"left_in_camera_m", {config.left_x_m, config.left_y_m, config.left_z_m}}});
 }
 
 std::ofstream SceneWriter::Implementation::open(const std::string& name) const {
@@ -132,6 +153,10 @@ void SceneWriter::Implementation::writeMesh(const TriangleMesh& mesh) const {
 
 void SceneWriter::Implementation::add(const SimulatedFrame& frame) {
   writePicture(numbered(folder_ / "depth", num_frames_), camera_, frame.depth_mm);
+  if (stereo_camera_) {
+    writePicture(numbered(folder_ / "stereo/left", num_frames_), *stereo_camera_, frame.left, kNoisyCompression);
+    writePicture(numbered(folder_ / "stereo/right", num_frames_), *stereo_camera_, frame.right, kNoisyCompression);
+  }
   if (num_frames_ % occlusion_every_ == 0) {
     writePicture(numbered(folder_ / "occlusion", num_frames_), camera_, frame.occlusion);
   }
@@ -173,6 +198,9 @@ SceneWriter::SceneWriter(const std::string& folder, const ObjectModel& object, c
     : implementation_(std::make_unique<Implementation>(folder, object, camera, T_camera_object_init, occlusion_every)) {
 }
 SceneWriter::~SceneWriter() = default;
+void SceneWriter::addStereo(const StereoPairConfig& config, const std::string& fiducials_file) {
+  implementation_->addStereo(config, fiducials_file);
+}
 void SceneWriter::add(const SimulatedFrame& frame) {
   implementation_->add(frame);
 }

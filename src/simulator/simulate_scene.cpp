@@ -28,7 +28,8 @@ struct Options {
   double init_error_m = 0.005;
   double init_error_deg = 4.0;
   int occlusion_every = 10;
-  std::string robot_urdf;
+  std::string robot_urdf, fiducials;
+  double hand_coverage = -1.0;
 };
 
 // The folder above `file` whose package.xml carries the name; "" when there is none. Works without ROS.
@@ -67,6 +68,11 @@ void addOptions(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
   app.add_option("--robot", options.robot_urdf, "URDF of the arm that holds the object, as config/robots/arm.urdf");
+  app.add_option("--fiducials", options.fiducials,
+                 "AprilTags on the object (YAML, see config/fiducials): adds grey stereo pictures");
+  app.add_option("--hand-coverage", options.hand_coverage,
+                 "share of the object that the hand or gripper (not --robot) hides")
+      ->check(CLI::Range(0.0, 0.95));
   app.add_option("--init-error-m", options.init_error_m, "error of init.json [m]")->capture_default_str();
   app.add_option("--init-error-deg", options.init_error_deg, "error of init.json [degrees]")->capture_default_str();
   app.add_option("--occlusion-every", options.occlusion_every, "a true mask for every so many frames")
@@ -82,11 +88,14 @@ void run(const Options& options) {
   config.occluders = dot::occludersFromName(options.occluders);
   config.seed = options.seed;
   config.robot_urdf = options.robot_urdf;
+  config.fiducials_file = options.fiducials;
+  config.hand_coverage = options.hand_coverage;
   config.duration_s = options.frames / options.fps;
   const auto begin = std::chrono::steady_clock::now();
   dot::SceneSimulator simulator(object.mesh, config);
   const dot::Pose init = simulator.roughInitialPose(options.init_error_m, options.init_error_deg * M_PI / 180.0);
   dot::SceneWriter writer(options.output, object, config.camera, init, options.occlusion_every);
+  if (!options.fiducials.empty()) writer.addStereo(config.stereo, options.fiducials);
   dot::RandomSource random(options.seed, 1);
   // Two stamps never change places.
   const double jitter_s = std::min(options.stamp_jitter_s, 0.45 / options.fps);

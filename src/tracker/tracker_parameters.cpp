@@ -36,7 +36,7 @@ Bindings measurementBindings() {
     bindNumber(FIELD(pixel, known_occluder_margin_m), 0.0, 1.0, "how well the place of a known occluder is known: what is less far behind it is not behind it"),
     bindNumber(FIELD(pixel, min_p_occluded_in_front), 0.0, 0.99, "least probability of occlusion for readings far in front of the object; 0 = unused (the paper)"),
     bindNumber(FIELD(pixel, occluder_half_life_m), 0.01, 100.0, "distance over which the density of occluders halves"),
-    bindNumber(FIELD(occlusion, p_visible_given_visible), 0.001, 0.999, "probability that a visible pixel is visible one second later; more than p_visible_given_occluded"),
+    bindNumber(FIELD(occlusion, p_visible_given_visible), 0.001, 0.999, "probability that a visible pixel is visible one second later; not less than p_visible_given_occluded: as much = no memory, see beam.yaml"),
     bindNumber(FIELD(occlusion, p_visible_given_occluded), 0.001, 0.999, "probability that an occluded pixel is visible one second later"),
     bindNumber(FIELD(occlusion, initial_p_occluded), 0.0, 1.0, "probability that a pixel is occluded before anything is known"),
   };
@@ -145,10 +145,10 @@ void validateTrackerConfig(const TrackerConfig& config) {
   TrackerConfig scratch;
   for (const ParameterBinding& binding : bindings()) binding.set(scratch, binding.get(config));
   // A chain that alternates has no power of dt: it could not be split into shorter steps.
-  if (config.occlusion.p_visible_given_visible <= config.occlusion.p_visible_given_occluded) {
-    throwOutOfRange(
-        "p_visible_given_visible", config.occlusion.p_visible_given_visible,
-        "more than p_visible_given_occluded (" + formatParameterValue(config.occlusion.p_visible_given_occluded) + ")");
+  if (config.occlusion.p_visible_given_visible < config.occlusion.p_visible_given_occluded) {
+    throwOutOfRange("p_visible_given_visible", config.occlusion.p_visible_given_visible,
+                    "not less than p_visible_given_occluded (" +
+                        formatParameterValue(config.occlusion.p_visible_given_occluded) + ")");
   }
 }
 

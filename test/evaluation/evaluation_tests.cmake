@@ -1,12 +1,14 @@
 # Tests of the command evaluate, one per Python file. They want Debian's python3, which has numpy, scipy and matplotlib.
 set(EVALUATION_PYTHON /usr/bin/python3 CACHE FILEPATH "Python that runs the tests of evaluate")
 set(EVALUATION_TESTS
-  aggregate bop_layout calibration command episodes estimates mesh_points motion_quality occlusion pose_errors poses report
+  aggregate bop_layout calibration command episodes estimates experiments mesh_points motion_quality occlusion pose_errors poses report
   states statistics symmetries ycbineoat_layout)
 set(EVALUATION_ENVIRONMENT
   "PYTHONPATH=${PROJECT_SOURCE_DIR}/scripts:${CMAKE_CURRENT_SOURCE_DIR}/evaluation"
   "TRACK_SEQUENCE=$<TARGET_FILE:track_sequence>"
-  "SIMULATE_SCENE=$<TARGET_FILE:simulate_scene>")
+  "SIMULATE_SCENE=$<TARGET_FILE:simulate_scene>"
+  "WITH_FIDUCIALS=${WITH_FIDUCIALS}"
+  "WITH_ROBOT=${WITH_ROBOT}")
 if(TARGET track_icp)
   list(APPEND EVALUATION_TESTS peers)
   list(APPEND EVALUATION_ENVIRONMENT "TRACK_ICP=$<TARGET_FILE:track_icp>" "TRACK_PCL=$<TARGET_FILE:track_pcl>")

@@ -102,8 +102,12 @@ TEST_F(RobotSessionTest, FollowsReportedVelocities) {
   expectItFollowsUnseen(0.003);
 }
 
-TEST_F(RobotSessionTest, ACameraThatMovesIsPlacedByTfAtTheStamp) {
+/// With and without a fixed frame: the camera's own motion counts once, whoever accounts for it.
+class MovingCamera : public RobotSessionTest, public testing::WithParamInterface<const char*> {};
+
+TEST_P(MovingCamera, IsPlacedByTfAtTheStamp) {
   connect();
+  session_.setFrames({"", GetParam(), 0.0});
   // The camera slides along its own x axis at 0.3 m/s; the object is where the arm has it.
   const auto T_moved_camera = [](double stamp_s) {
     return Pose(Eigen::Translation3d(-0.3 * (stamp_s - kBeginS), 0, 0));
@@ -122,6 +126,8 @@ TEST_F(RobotSessionTest, ACameraThatMovesIsPlacedByTfAtTheStamp) {
     EXPECT_LT(errorM(step(k < 5, T_camera_object), T_camera_object), 0.003) << "frame " << k;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(FixedFrame, MovingCamera, testing::Values("", "base_link"));
 
 TEST_F(RobotSessionTest, ACameraOfTheUrdfNeedsNoTf) {
   RobotConnectionConfig config;

@@ -17,6 +17,9 @@ if(TARGET depth_object_tracker_robot)
   add_tracker_test(robot_occluder_test
     SOURCES sequence/robot_occluder_test.cpp
     LIBRARIES depth_object_tracker_simulator depth_object_tracker_robot)
+  add_tracker_test(held_occlusion_test
+    SOURCES sequence/held_occlusion_test.cpp sequence/scripted_scene.cpp
+    LIBRARIES depth_object_tracker_simulator depth_object_tracker_robot depth_object_tracker_tools)
 endif()
 
 add_tracker_test(recorded_scenes_tests SOURCES sequence/recorded_scenes_test.cpp LIBRARIES depth_object_tracker_tools)

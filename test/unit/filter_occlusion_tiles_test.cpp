@@ -92,6 +92,23 @@ TEST(TilePool, TilesComeBackFromTheThreadThatFreesThem) {
   EXPECT_EQ(pool.memoryBytes(), warm);
 }
 
+TEST(OcclusionTiles, WithoutMemoryEveryImageStartsFromTheSameProbability) {
+  OcclusionChainConfig config;
+  config.p_visible_given_visible = config.p_visible_given_occluded = 0.75;
+  OcclusionTiles tiles(config, 2, 1);
+  tiles.setGrid(16, 16);
+  for (int image = 0; image < 3; ++image) {
+    tiles.advance(1.0 / 30.0);
+    EXPECT_NEAR(tiles.probability(tiles.unmeasured()), 0.25, 1e-6);
+    float* values = tiles.writableTile(1, 2, 0);
+    for (int cell = 0; cell < kTileCells; ++cell) {
+      EXPECT_NEAR(tiles.probability(values[cell]), 0.25, 1e-6);
+      values[cell] = tiles.stored(0.9f);
+      EXPECT_NEAR(tiles.probability(values[cell]), 0.9, 1e-6);
+    }
+  }
+}
+
 /// Every particle's probabilities in full, in double precision.
 class DenseBeliefs {
  public:

@@ -53,5 +53,14 @@ TEST(OcclusionChain, DeviationDecaysBySixTenthsASecond) {
   EXPECT_EQ(chain.predict(0.9, 0.0), 0.9);
 }
 
+TEST(OcclusionChain, OfTwoEqualNumbersForgetsAtOnce) {
+  OcclusionChainConfig config;
+  config.p_visible_given_visible = config.p_visible_given_occluded = 0.75;
+  const OcclusionChain chain(config);
+  for (const double p : {0.0, 0.25, 1.0}) {
+    for (const double dt_s : {1e-3, 1.0 / 30.0, 1.0}) EXPECT_NEAR(chain.predict(p, dt_s), 0.25, 1e-15);
+  }
+}
+
 }  // namespace
 }  // namespace depth_object_tracker

@@ -157,7 +157,7 @@ TEST(TrackerParameters, ValidationFindsFieldsSetInCode) {
   config = TrackerConfig();
   config.occlusion.p_visible_given_visible = 0.2;
   EXPECT_EQ(messageOf<std::invalid_argument>([&] { validateTrackerConfig(config); }),
-            "parameter `p_visible_given_visible` is 0.2; it must be more than p_visible_given_occluded (0.3)");
+            "parameter `p_visible_given_visible` is 0.2; it must be not less than p_visible_given_occluded (0.3)");
 }
 
 class ParameterFile : public testing::Test {
@@ -207,7 +207,7 @@ TEST_F(ParameterFile, ProblemsNameFileAndKey) {
   expectComplaint("tail_weight: .inf\n", "`tail_weight` is inf; it must be");
   expectComplaint("seed: 1\nseed: 2\n", "`seed` is given twice");
   expectComplaint("? [a]\n: 1\n", "a key that is not a word");
-  expectComplaint("p_visible_given_visible: 0.2\n", "it must be more than p_visible_given_occluded");
+  expectComplaint("p_visible_given_visible: 0.2\n", "it must be not less than p_visible_given_occluded");
   expectComplaint("&a\ntracker: *a\n", "is unknown");
   expectComplaint(std::string(100000, '['), "not valid YAML");
 }
@@ -232,6 +232,12 @@ TEST(ShippedParameters, TrackerYamlHoldsEveryDefault) {
   for (const ParameterInfo& parameter : listTrackerParameters())
     EXPECT_EQ(keys.count(parameter.name), 1u) << parameter.name;
   EXPECT_EQ(keys.size(), listTrackerParameters().size());
+}
+
+TEST(ShippedParameters, BeamYamlRemembersNothing) {
+  const TrackerConfig config = loadTrackerConfig(PROJECT_SOURCE_FOLDER "/config/beam.yaml");
+  EXPECT_EQ(config.occlusion.p_visible_given_visible, config.occlusion.p_visible_given_occluded);
+  EXPECT_EQ(config.occlusion.initial_p_occluded, 1.0 - config.occlusion.p_visible_given_visible);
 }
 
 TEST(ShippedParameters, PaperYamlIsThePapersFilter) {

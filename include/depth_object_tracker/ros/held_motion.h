@@ -45,8 +45,9 @@ class HeldMotion {
   bool awaitsControl(double stamp_s, const std::string& camera_frame) const;
 
   /// Mean motion over (from_s, to_s]; marked as unknown where nothing covers it.
-  /// @param T_camera_object where the object was at from_s.
-  HeldControl control(double from_s, double to_s, const std::string& camera_frame, const Pose& T_camera_object) const;
+  /// @param T_camera_object where the object was at from_s. @param T_now_before as RobotConnection::control.
+  HeldControl control(double from_s, double to_s, const std::string& camera_frame, const Pose& T_camera_object,
+                      const Pose& T_now_before) const;
 
   /// Time jumped: what came before means nothing any more.
   void forget();

@@ -51,8 +51,10 @@ class RobotConnection {
 
   /// Motion of an object held by `link` over (from_s, to_s]. @param link must exist.
   /// @param T_camera_object where it was at from_s.
+  /// @param T_now_before what the tracker itself has done about a camera that moves in its fixed frame: from the camera
+  ///   of from_s to that of to_s. Identity: the camera's own motion is part of the control.
   HandControl control(const std::string& link, const std::string& camera_frame, double from_s, double to_s,
-                      const Pose& T_camera_object);
+                      const Pose& T_camera_object, const Pose& T_now_before = Pose::Identity());
 
   /// @param link must exist.
   LinkInCamera locate(const std::string& link, const std::string& camera_frame, double stamp_s);

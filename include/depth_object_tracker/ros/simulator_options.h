@@ -22,8 +22,8 @@ struct SimulatorOptions {
       problems;  ///< one sentence each, naming parameter, value and what is allowed; empty = all good
 };
 
-/// Reads `object_file, robot_urdf, scenario, speed, occluders, seed, rate_hz, wait_for_tracker_s, init_error_m,
-/// init_error_rad`.
+/// Reads `object_file, robot_urdf, fiducials_file, scenario, speed, occluders, seed, rate_hz, wait_for_tracker_s,
+/// init_error_m, init_error_rad`.
 SimulatorOptions loadSimulatorOptions(const ros::NodeHandle& private_node);
 
 }  // namespace depth_object_tracker

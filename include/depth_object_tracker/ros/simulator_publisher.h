@@ -15,6 +15,7 @@ namespace depth_object_tracker {
 
 constexpr const char* kWorldFrame = "world";
 constexpr const char* kCameraLinkFrame = "camera_link";
+constexpr const char* kStereoLeftFrame = "stereo_left_optical_frame";
 constexpr const char* kCameraOpticalFrame = "camera_depth_optical_frame";
 
 /// Advertises on construction. Publishing is for one thread.
@@ -31,6 +32,8 @@ class SimulatorPublisher {
   void setRobot(const std::string& root_link, const Pose& T_world_base, const std::string& hand_link);
 
   void publishFrames();
+  /// Whether somebody looks at the grey pictures.
+  bool isStereoWanted() const { return left_.getNumSubscribers() > 0 || right_.getNumSubscribers() > 0; }
   /// Latched; stamp 0 = good for any time.
   void publishInitialPose(const Pose& T_camera_object, double error_m, double error_rad);
   bool hasTracker() const { return initial_pose_.getNumSubscribers() > 0; }
@@ -40,13 +43,14 @@ class SimulatorPublisher {
 
  private:
   void publishImage(const SimulatedFrame& frame, const std_msgs::Header& header);
+  void publishStereo(const SimulatedFrame& frame, const ros::Time& stamp);
   void publishTruth(const SimulatedFrame& frame, const std_msgs::Header& header);
   void publishControl(const ControlInput& control, const std_msgs::Header& header);
 
   SimulationConfig config_;
   std::string root_link_, hand_link_;  // empty = no robot
   Pose T_world_base_ = Pose::Identity();
-  image_transport::CameraPublisher camera_;
+  image_transport::CameraPublisher camera_, left_, right_;
   sensor_msgs::CameraInfo camera_info_;
   ros::Publisher truth_, occlusion_, initial_pose_, control_twist_, grasp_;
   tf2_ros::StaticTransformBroadcaster frames_;

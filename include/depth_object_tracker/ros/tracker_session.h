@@ -160,7 +160,8 @@ class TrackerSession {
   std::unique_ptr<BoardMembership> sharing_;  // null: nothing is told or heard
   std::shared_ptr<const TriangleMesh> shared_mesh_;
   std::unique_ptr<OtherObjects> others_ = std::make_unique<OtherObjects>();
-  std::optional<Pose> T_fixed_camera_;  // at the last image that the tracker saw
+  std::optional<Pose> T_fixed_camera_;    // at the last image that the tracker saw
+  Pose T_now_before_ = Pose::Identity();  // how far the camera has moved in the fixed frame since then
   ThrottledLog log_;
   SelfCheck self_check_;
 

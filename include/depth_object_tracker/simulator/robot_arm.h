@@ -5,6 +5,7 @@
 #include "depth_object_tracker/geometry/pinhole_camera.h"
 #include "depth_object_tracker/render/depth_renderer.h"
 #include "depth_object_tracker/simulator/simulation_config.h"
+#include "depth_object_tracker/simulator/view.h"
 
 #include <functional>
 #include <memory>
@@ -45,9 +46,8 @@ class RobotArm {
   Pose T_world_base() const;
   const std::string& rootLink() const;
 
-  /// Calls `merge` with the pixels of every link. Not thread-safe against itself.
-  void draw(double t_s, const PinholeCamera& camera,
-            const std::function<void(const std::vector<CoveredPixel>&)>& merge);
+  /// Draws every link. Not thread-safe against itself.
+  void draw(double t_s, const View& view, const DrawSurface& surface);
 
  private:
   class Implementation;

@@ -24,6 +24,8 @@ struct SimulatedFrame {
   bool slipping = false;                               ///< it is moving in the robot's hand
   Pose T_camera_object_kinematics = Pose::Identity();  ///< where the robot believes it is; the truth without a robot
 
+  std::vector<std::uint8_t> left, right;  ///< grey pictures, row-major; empty without fiducials
+
   double visibleFraction() const {
     return object_pixels == 0 ? 0.0 : static_cast<double>(visible_pixels) / object_pixels;
   }
@@ -41,6 +43,10 @@ class SceneSimulator {
 
   /// Renders the image of time `stamp_s` [s since the start]; stamps must increase. Valid until the next call.
   const SimulatedFrame& render(double stamp_s);
+
+  /// Whether grey pictures are made; they take most of the time. True at first. Without fiducials there are none
+  /// anyway.
+  void setStereo(bool enabled);
 
   /// True pose at any time, nothing rendered.
   Pose truth(double stamp_s);

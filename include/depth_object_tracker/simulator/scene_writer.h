@@ -20,6 +20,10 @@ class SceneWriter {
               const Pose& T_camera_object_init, int occlusion_every = 10);
   ~SceneWriter();
 
+  /// Grey pictures will be written too: stereo/left, stereo/right, stereo.json and a copy of the fiducial file as
+  /// fiducials.yaml. Call before the first add(). @throws std::runtime_error
+  void addStereo(const StereoPairConfig& config, const std::string& fiducials_file);
+
   /// @throws std::runtime_error
   void add(const SimulatedFrame& frame);
 

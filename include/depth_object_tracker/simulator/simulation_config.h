@@ -46,6 +46,16 @@ struct DepthSensorConfig {
   double max_range_m = 6.0;
 };
 
+/// A rectified pair of grey cameras whose axes are parallel to the depth camera's.
+struct StereoPairConfig {
+  PinholeCamera camera{1024, 768, 840.0, 840.0, 511.5, 383.5};  ///< both
+  double baseline_m = 0.12;
+  double left_x_m = -0.06;  ///< left camera in the depth camera's frame
+  double left_y_m = -0.05;  ///< ... above it
+  double left_z_m = 0.0;
+  double noise_stddev = 2.0;  ///< grey levels of 255
+};
+
 struct SimulationConfig {
   Scenario scenario = Scenario::kHuman;
   Speed speed = Speed::kMedium;
@@ -62,6 +72,10 @@ struct SimulationConfig {
   double camera_pitch_rad = 0.436;  ///< down
   PinholeCamera camera{640, 480, 525.0, 525.0, 319.5, 239.5};
   DepthSensorConfig sensor;
+  StereoPairConfig stereo;
+  std::string fiducials_file;  ///< AprilTags on the object (a file); empty = none, and no grey pictures
+  double hand_coverage =
+      -1.0;                ///< share of the object that the hand or gripper hides, [0, 1); negative = random, little
   std::string robot_urdf;  ///< robot scenarios: arm that holds the object (a file); empty = a gripper without a robot
 };
 
