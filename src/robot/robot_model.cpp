@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/robot/robot_model.h"
 
+#include "depth_object_tracker/geometry/file_access.h"
+
 #include <console_bridge/console.h>
 #include <urdf_parser/urdf_parser.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <kdl/tree.hpp>
 #include <kdl_parser/kdl_parser.hpp>
 #include <mutex>
@@ -14,6 +14,7 @@
 namespace depth_object_tracker {
 namespace {
 
+constexpr std::uintmax_t kMaxFileBytes = 16 << 20;
 constexpr int kMaxMimicDepth = 32;  // deeper is a circle
 
 /// Collects what the parser complains about, which it only logs.
@@ -109,9 +110,12 @@ RobotModel RobotModel::fromText(const std::string& urdf, const std::string& sour
 }
 
 RobotModel RobotModel::fromFile(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw RobotModelError("robot model '" + path + "' cannot be read; check the path");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string text;
+  try {
+    text = InputFile(path, kMaxFileBytes).read();
+  } catch (const FileError& error) {
+    throw RobotModelError("robot model '" + path + "' cannot be read; check the path: " + error.what());
+  }
   return fromText(text, path);
 }
 

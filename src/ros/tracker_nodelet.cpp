@@ -97,7 +97,8 @@ void TrackerNodelet::start() {
   }
   worker_->setObserver(
       [this](const DiagnosticSnapshot& snapshot, const TrackerSession& current) { observe(snapshot, current); });
-  services_ = std::make_unique<TrackerServices>(private_node, *worker_, *tf_buffer_);
+  services_ = std::make_unique<TrackerServices>(
+      private_node, *worker_, *tf_buffer_, accessForServices(options.object_folders, options.object, built.mesh_file));
   if (marker_) services_->offerMarker(*marker_);
   services_->setLoadedCallback([this](const TrackerConfig& config) { offerLiveParameters(config); });
   worker_->start();
