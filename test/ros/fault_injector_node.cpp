@@ -27,7 +27,7 @@ struct Frame {
 };
 
 constexpr double kJumpS = 60.0;
-constexpr std::size_t kDelayedFrames = 10;
+constexpr std::size_t kDelayedFrames = 45;
 
 /// Every second pixel of every second row.
 void halveResolution(Frame& frame) {
@@ -78,7 +78,7 @@ class FaultInjector {
            if (num_received_ % 3 == 0) send(std::move(frame));
          }},
         {"delay", [this](Frame frame) { delay(std::move(frame)); }},
-        {"duplicate", [this](Frame frame) { send(frame), send(std::move(frame)); }},
+        {"duplicate", [this](Frame frame) { duplicate(std::move(frame)); }},
         {"reorder", [this](Frame frame) { reorder(std::move(frame)); }},
         {"truncate",
          [this](Frame frame) { frame.image.data.resize(frame.image.data.size() / 2), send(std::move(frame)); }},
@@ -123,6 +123,12 @@ class FaultInjector {
     ++num_sent_;
     camera_.publish(boost::make_shared<sensor_msgs::Image>(std::move(frame.image)),
                     boost::make_shared<sensor_msgs::CameraInfo>(std::move(frame.info)));
+  }
+
+  void duplicate(Frame frame) {
+    send(frame);
+    ros::WallDuration(0.1).sleep();  // or the second overtakes the first
+    send(std::move(frame));
   }
 
   void delay(Frame frame) {

@@ -81,6 +81,14 @@ class FaultyCamera {
     return stamp_ + offset_;
   }
 
+  /// Sends until one frame has come out at the other end: all are connected.
+  bool waitUntilThrough() {
+    return waitUntil([&] {
+      const ros::Time stamp = sendFrame();
+      return waitUntil([&] { return status() && status()->header.stamp == stamp; }, 0.5);
+    });
+  }
+
   /// A frame that should go through whole. @return what the tracker says of it.
   TrackerStatus sendGoodFrame() {
     const ros::Time stamp = sendFrame();

@@ -5,7 +5,7 @@ endif()
 
 add_tracker_test(ros_conversions_test
   SOURCES ros/image_conversions_test.cpp ros/camera_conversions_test.cpp ros/pose_validation_test.cpp ros/object_source_test.cpp
-          ros/overlay_test.cpp
+          ros/lying_messages_test.cpp ros/overlay_test.cpp
   LIBRARIES depth_object_tracker_ros)
 add_tracker_test(ros_inputs_test
   SOURCES ros/camera_info_matcher_test.cpp ros/frame_inbox_test.cpp ros/parameter_loader_test.cpp ros/pose_memory_test.cpp
@@ -41,6 +41,13 @@ endfunction()
 
 add_script_test(launch_files_test
   ${CMAKE_CURRENT_SOURCE_DIR}/ros/check_launch_files.py ${PROJECT_SOURCE_DIR}/launch ${PROJECT_SOURCE_DIR}/README.md)
+
+add_executable(master_loss_test ros/master_loss_test.cpp)
+target_link_libraries(master_loss_test PRIVATE depth_object_tracker_ros depth_object_tracker_warnings GTest::gtest)
+target_compile_definitions(master_loss_test PRIVATE PROJECT_SOURCE_FOLDER="${PROJECT_SOURCE_DIR}")
+add_script_test(tracker_outlives_the_master ${CMAKE_CURRENT_SOURCE_DIR}/ros/check_master_loss.py
+  $<TARGET_FILE:tracker_node> $<TARGET_FILE:master_loss_test> ${PROJECT_SOURCE_DIR}/meshes/bracket.obj)
+set_tests_properties(tracker_outlives_the_master PROPERTIES TIMEOUT 400)
 
 find_program(ROSTEST_PROGRAM rostest)
 if(ROSTEST_PROGRAM)
