@@ -143,6 +143,7 @@ class FaultInjector {
     held_.push_back(std::move(frame));
     if (held_.size() < 2) return;
     send(held_[1]);
+    ros::WallDuration(0.1).sleep();  // or the tracker, which takes the newest to arrive, sees the other only
     send(held_[0]);
     held_.clear();
   }
