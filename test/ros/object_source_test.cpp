@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -66,6 +67,7 @@ BuiltTracker load(const ObjectSource& source, const std::vector<std::string>& fo
 class ServiceAccess : public testing::Test {
  protected:
   ServiceAccess() {
+    setenv("ROS_PACKAGE_PATH", PROJECT_SOURCE_FOLDER, 1);  // also where no workspace is sourced
     std::filesystem::create_directory(folder_.path() / "listed");
     std::filesystem::copy_file(testMeshFile(), folder_.path() / "listed/part.obj");
     std::filesystem::copy_file(testMeshFile(), folder_.path() / "elsewhere.obj");
