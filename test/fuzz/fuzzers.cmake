@@ -20,6 +20,7 @@ function(add_fuzzer name)
   target_link_libraries(${name}_fuzzer PRIVATE Eigen3::Eigen ${ARG_LIBRARIES})
   set_target_properties(${name}_fuzzer PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/fuzzers)
   string(REPLACE ";" "\n" covered "${ARG_COVERED}")
+  string(REPLACE "${PROJECT_SOURCE_DIR}/" "/" covered "${covered}")  # compilers may name files relative to the build
   file(WRITE ${CMAKE_BINARY_DIR}/fuzzers/${name}.covered "${covered}\n")
   add_dependencies(fuzzers ${name}_fuzzer)
 endfunction()
