@@ -103,6 +103,10 @@ RobotModel RobotModel::fromText(const std::string& urdf, const std::string& sour
   if (!kdl_parser::treeFromUrdfModel(*data->urdf, data->tree)) {
     throw RobotModelError(what + "has no kinematic tree that can be used");
   }
+  for (const auto& entry : data->urdf->links_) {  // joints in a circle are parsed, and hang in the air
+    if (data->tree.getSegments().count(entry.first) > 0) continue;
+    throw RobotModelError(what + "does not connect link '" + entry.first + "' with its root '" + data->root + "'");
+  }
   for (const auto& [name, joint] : data->urdf->joints_) {
     if (isMoving(*joint)) data->ruleFor(name);  // throws what is wrong with it
   }
