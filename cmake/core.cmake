@@ -15,12 +15,17 @@ add_library(depth_object_tracker_core SHARED
   src/filter/tile_fit.cpp
   src/filter/tile_likelihood.cpp
   src/filter/worker_pool.cpp
+  src/geometry/child_process.cpp
   src/geometry/convex_hull.cpp
   src/geometry/edge_collapse.cpp
+  src/geometry/file_access.cpp
+  src/geometry/isolated_mesh_loader.cpp
   src/geometry/level_of_detail.cpp
   src/geometry/mesh_file_check.cpp
   src/geometry/mesh_loader.cpp
   src/geometry/mesh_orientation.cpp
+  src/geometry/mesh_parser.cpp
+  src/geometry/mesh_reply.cpp
   src/geometry/mesh_uri.cpp
   src/geometry/pinhole_camera.cpp
   src/geometry/polygon_triangulation.cpp
@@ -76,7 +81,7 @@ target_include_directories(depth_object_tracker_core
   PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
 target_link_libraries(depth_object_tracker_core
   PUBLIC Eigen3::Eigen Threads::Threads
-  PRIVATE depth_object_tracker_warnings assimp::assimp yaml-cpp)
+  PRIVATE depth_object_tracker_warnings assimp::assimp yaml-cpp ${CMAKE_DL_LIBS})
 
 # Portable SIMD is optional: without Highway the plain C++ loops run, some ten times slower, with the same results.
 find_path(HIGHWAY_INCLUDE_DIR hwy/highway.h)
@@ -92,3 +97,14 @@ if(HIGHWAY_INCLUDE_DIR AND HIGHWAY_LIBRARY)
 else()
   message(STATUS "depth_object_tracker: Highway (libhwy-dev) was not found: the tracker will be several times slower")
 endif()
+
+# Parses mesh files for the nodelets, in a process of its own. It finds nothing but its libraries.
+add_executable(mesh_reader
+  src/geometry/mesh_file_check.cpp
+  src/geometry/mesh_parser.cpp
+  src/geometry/mesh_reader.cpp
+  src/geometry/mesh_reply.cpp
+  src/geometry/polygon_triangulation.cpp
+)
+target_include_directories(mesh_reader PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/cmake/no_ros ${CMAKE_CURRENT_SOURCE_DIR}/include)
+target_link_libraries(mesh_reader PRIVATE depth_object_tracker_warnings Eigen3::Eigen assimp::assimp)

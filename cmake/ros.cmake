@@ -42,7 +42,7 @@ target_include_directories(depth_object_tracker_ros SYSTEM PUBLIC ${catkin_INCLU
 target_link_libraries(depth_object_tracker_ros
   PUBLIC depth_object_tracker_robot ${catkin_LIBRARIES}
   PRIVATE depth_object_tracker_warnings nlohmann_json::nlohmann_json)
-add_dependencies(depth_object_tracker_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
+add_dependencies(depth_object_tracker_ros mesh_reader ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 
 # The plugins, apart from the classes so that tests and plain nodes can link those.
 add_library(depth_object_tracker_nodelets SHARED src/ros/tracker_plugin.cpp)

@@ -8,19 +8,13 @@
 #include <array>
 #include <cctype>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <sstream>
-#include <system_error>
 
 namespace depth_object_tracker {
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{512} << 20;
-constexpr std::array<const char*, 4> kExtensions = {"obj", "stl", "ply", "dae"};
+constexpr std::size_t kMaxHeaderBytes = 1 << 20;
 
 std::string formatCount(double count) {
   std::ostringstream stream;
@@ -43,27 +37,27 @@ std::string findPlyProblem(const std::string& line, double& num_elements) {
 }
 
 /// assimp's PLY reader does not return from headers that do not end, and trusts their counts with its memory.
-void checkPlyHeader(const fs::path& path, std::uintmax_t num_bytes) {
+void checkPlyHeader(const std::string& content) {
   constexpr int kMaxHeaderLines = 1000;
-  const std::string name = "mesh " + path.string() + ": cannot be read as .ply: ";
-  std::ifstream file(path, std::ios::binary);
+  const std::string name = "cannot be read as .ply: ";
+  std::istringstream file(content.substr(0, kMaxHeaderBytes));
   std::string line;
   double num_elements = 0.0;
   for (int i = 0; i < kMaxHeaderLines && std::getline(file, line); ++i) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (i == 0 && line != "ply") throw MeshError(name + "it does not begin with the line 'ply'.");
+    if (i == 0 && line != "ply") throw MeshError(name + "it does not begin with the line 'ply'");
     if (line == "end_header") {
       // An element takes at least one byte.
       const double num_data_bytes =
-          file.eof() ? 0.0 : static_cast<double>(num_bytes) - static_cast<double>(file.tellg());
+          file.eof() ? 0.0 : static_cast<double>(content.size()) - static_cast<double>(file.tellg());
       if (num_elements > 0.0 && num_elements <= num_data_bytes) return;
       throw MeshError(name + "its header promises " + formatCount(num_elements) + " elements, " +
-                      formatCount(num_data_bytes) + " bytes follow.");
+                      formatCount(num_data_bytes) + " bytes follow");
     }
     const std::string problem = findPlyProblem(line, num_elements);
-    if (!problem.empty()) throw MeshError(name + problem + ".");
+    if (!problem.empty()) throw MeshError(name + problem);
   }
-  throw MeshError(name + "its header has no line 'end_header'.");
+  throw MeshError(name + "its header has no line 'end_header'");
 }
 
 /// Calls `check(attributes, text)` for every element of that name: what stands in its tag, and its text up to the next
@@ -84,22 +78,20 @@ void forEachElement(const std::string& xml, const std::string& element, const Ch
 
 /// assimp's Collada reader does not return from index lists that hold anything but integers, and crashes on arrays
 /// without count.
-void checkDaeText(const fs::path& path) {
-  const std::string name = "mesh " + path.string() + ": cannot be read as .dae: ";
-  std::ifstream file(path, std::ios::binary);
-  const std::string xml((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+void checkDaeText(const std::string& xml) {
+  const std::string name = "cannot be read as .dae: ";
   for (const char* element : {"p", "vcount"}) {
     forEachElement(xml, element, [&](const std::string&, const std::string& text) {
       const std::size_t position = text.find_first_not_of("0123456789 \t\r\n");
       if (position == std::string::npos) return;
       throw MeshError(name + "an index list <" + element + "> holds '" + text.substr(position, 8) +
-                      "' where an integer was expected.");
+                      "' where an integer was expected");
     });
   }
   for (const char* element : {"float_array", "Name_array", "IDREF_array"}) {
     forEachElement(xml, element, [&](const std::string& attributes, const std::string&) {
       if (attributes.find("count=") == std::string::npos)
-        throw MeshError(name + "an element <" + element + "> has no count.");
+        throw MeshError(name + "an element <" + element + "> has no count");
     });
   }
   for (const char* attribute : {" count=\"", " stride=\"", " offset=\""}) {
@@ -108,45 +100,25 @@ void checkDaeText(const fs::path& path) {
       const std::string value = xml.substr(begin, std::min(xml.find('"', begin), xml.size()) - begin);
       const bool is_count =
           !value.empty() && value.size() <= 9 && value.find_first_not_of("0123456789") == std::string::npos;
-      if (!is_count) throw MeshError(name + "the attribute" + attribute + value.substr(0, 20) + "\" is not a count.");
+      if (!is_count) throw MeshError(name + "the attribute" + attribute + value.substr(0, 20) + "\" is not a count");
     }
   }
 }
 
 }  // namespace
 
-std::string lowerCaseExtension(const std::filesystem::path& path) {
+std::string meshExtension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   if (!extension.empty()) extension.erase(0, 1);
   for (char& letter : extension) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-  return extension;
+  if (std::find(kMeshExtensions.begin(), kMeshExtensions.end(), extension) != kMeshExtensions.end()) return extension;
+  throw MeshError("the format '." + extension + "' is not supported; convert it to .obj, .stl, .ply or .dae");
 }
 
-/// Opening a pipe would block and a directory reads as garbage: look before.
-void checkMeshFile(const std::filesystem::path& path) {
-  const std::string name = "mesh " + path.string() + ": ";
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found) throw MeshError(name + "the file does not exist.");
-  if (status.type() == fs::file_type::none) throw MeshError(name + "cannot be looked up: " + error.message() + ".");
-  if (status.type() == fs::file_type::directory) {
-    throw MeshError(name + "is a folder; give the path of the .obj, .stl, .ply or .dae file in it.");
-  }
-  if (status.type() != fs::file_type::regular) throw MeshError(name + "is not a regular file.");
-  const std::string extension = lowerCaseExtension(path);
-  if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end()) {
-    throw MeshError(name + "the format '." + extension + "' is not supported; convert it to .obj, .stl, .ply or .dae.");
-  }
-  const std::uintmax_t num_bytes = fs::file_size(path, error);
-  if (error) throw MeshError(name + "its size cannot be read: " + error.message() + ".");
-  if (num_bytes == 0) throw MeshError(name + "the file is empty.");
-  if (num_bytes > kMaxFileBytes) {
-    throw MeshError(name + "the file has " + std::to_string(num_bytes >> 20) + " MiB, more than the " +
-                    std::to_string(kMaxFileBytes >> 20) + " MiB that are accepted; simplify the mesh first.");
-  }
-  if (!std::ifstream(path)) throw MeshError(name + "the file cannot be opened: check its permissions.");
-  if (extension == "ply") checkPlyHeader(path, num_bytes);
-  if (extension == "dae") checkDaeText(path);
+void checkMeshContent(const std::string& content, const std::string& extension) {
+  if (content.empty()) throw MeshError("the file is empty");
+  if (extension == "ply") checkPlyHeader(content);
+  if (extension == "dae") checkDaeText(content);
 }
 
 }  // namespace depth_object_tracker

@@ -2,6 +2,7 @@
 // package:// and file:// to paths.
 #include "depth_object_tracker/geometry/mesh_loader.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstring>
 
@@ -25,13 +26,28 @@ std::string decodePercent(const std::string& text) {
   return decoded;
 }
 
+/// Package finders take the name for a command line.
+bool isPackageName(const std::string& name) {
+  const auto is_plain = [](unsigned char letter) {
+    return std::isalnum(letter) != 0 || letter == '_' || letter == '-';
+  };
+  return !name.empty() && name.front() != '-' && std::all_of(name.begin(), name.end(), is_plain);
+}
+
+/// NAME of package://NAME/PATH.
+std::string packageName(const std::string& uri) {
+  const std::size_t begin = std::strlen("package://");
+  return uri.substr(begin, std::min(uri.find('/', begin), uri.size()) - begin);
+}
+
 std::string resolvePackageUri(const std::string& uri, const PackageResolver& resolve_package) {
   const std::string rest = uri.substr(std::strlen("package://"));
   const std::size_t slash = rest.find('/');
-  const std::string package = rest.substr(0, slash);
+  const std::string package = packageName(uri);
   if (package.empty() || slash == std::string::npos || slash + 1 == rest.size()) {
     throw MeshError("mesh " + uri + ": expected package://NAME/PATH.");
   }
+  if (!isPackageName(package)) throw MeshError("mesh " + uri + ": '" + package + "' is not the name of a package.");
   if (!resolve_package) {
     throw MeshError("mesh " + uri + ": package:// names cannot be looked up here; give the file's path.");
   }
@@ -44,6 +60,11 @@ std::string resolvePackageUri(const std::string& uri, const PackageResolver& res
 }
 
 }  // namespace
+
+std::string packageFolder(const std::string& uri, const PackageResolver& resolve_package) {
+  if (!startsWith(uri, "package://") || !resolve_package || !isPackageName(packageName(uri))) return "";
+  return resolve_package(packageName(uri));
+}
 
 std::string resolveMeshUri(const std::string& uri, const PackageResolver& resolve_package) {
   if (uri.empty()) throw MeshError("mesh: the path is empty.");

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/robot/robot_model.h"
 
+#include "depth_object_tracker/geometry/file_access.h"
+
 #include <console_bridge/console.h>
 #include <urdf_parser/urdf_parser.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <kdl/tree.hpp>
 #include <kdl_parser/kdl_parser.hpp>
 #include <mutex>
@@ -14,6 +14,7 @@
 namespace depth_object_tracker {
 namespace {
 
+constexpr std::uintmax_t kMaxFileBytes = 16 << 20;
 constexpr int kMaxMimicDepth = 32;  // deeper is a circle
 
 /// Collects what the parser complains about, which it only logs.
@@ -102,6 +103,10 @@ RobotModel RobotModel::fromText(const std::string& urdf, const std::string& sour
   if (!kdl_parser::treeFromUrdfModel(*data->urdf, data->tree)) {
     throw RobotModelError(what + "has no kinematic tree that can be used");
   }
+  for (const auto& entry : data->urdf->links_) {  // joints in a circle are parsed, and hang in the air
+    if (data->tree.getSegments().count(entry.first) > 0) continue;
+    throw RobotModelError(what + "does not connect link '" + entry.first + "' with its root '" + data->root + "'");
+  }
   for (const auto& [name, joint] : data->urdf->joints_) {
     if (isMoving(*joint)) data->ruleFor(name);  // throws what is wrong with it
   }
@@ -109,9 +114,12 @@ RobotModel RobotModel::fromText(const std::string& urdf, const std::string& sour
 }
 
 RobotModel RobotModel::fromFile(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw RobotModelError("robot model '" + path + "' cannot be read; check the path");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string text;
+  try {
+    text = InputFile(path, kMaxFileBytes).read();
+  } catch (const FileError& error) {
+    throw RobotModelError("robot model '" + path + "' cannot be read; check the path: " + error.what());
+  }
   return fromText(text, path);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/ros/object_source.h"
 
+#include "depth_object_tracker/geometry/isolated_mesh_loader.h"
+
 #include <ros/package.h>
 #include <nlohmann/json.hpp>
 
@@ -9,7 +11,6 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -17,12 +18,15 @@
 namespace depth_object_tracker {
 namespace {
 
+constexpr std::uintmax_t kMaxInitFileBytes = 1 << 20;
 constexpr double kMaxRotationError = 1e-2;  // files round to a few digits
+constexpr const char* kAccessAdvice =
+    "; name it as package://NAME/PATH, or list its folder in ~object_folders and start again";
 constexpr const char* kInitFormat = R"({"cam_R_m2c": [9 numbers], "cam_t_m2c": [3 numbers, mm]})";
 
-ObjectDescription describe(const ObjectSource& source) {
+ObjectDescription describe(const ObjectSource& source, const FileAccess& access) {
   if (!source.object_file.empty()) {
-    return loadObjectDescription(resolveMeshUri(source.object_file, findPackage));
+    return loadObjectDescription(resolveMeshUri(source.object_file, findPackage), access);
   }
   if (source.mesh.empty()) {
     throw std::invalid_argument(
@@ -72,11 +76,23 @@ std::string findPackage(const std::string& package) {
   return ros::package::getPath(package);
 }
 
-BuiltTracker buildTracker(const ObjectSource& source, const TrackerConfig& config) {
+FileAccess accessForServices(const std::vector<std::string>& object_folders, const ObjectSource& at_start,
+                             const std::string& mesh_file_at_start) {
+  FileAccess access = FileAccess::only(object_folders, kAccessAdvice).with(findPackage("depth_object_tracker"));
+  try {
+    if (!at_start.object_file.empty()) access = access.with(resolveMeshUri(at_start.object_file, findPackage));
+  } catch (const MeshError&) {  // told where the object was to be loaded
+  }
+  return access.with(mesh_file_at_start);
+}
+
+BuiltTracker buildTracker(const ObjectSource& source, const TrackerConfig& config, const FileAccess& access) {
   BuiltTracker built;
   try {
-    const ObjectDescription description = describe(source);
-    ObjectModel model = loadObject(description, findPackage);
+    // A description may name its mesh relative to itself.
+    const FileAccess all_access = access.with(packageFolder(source.object_file, findPackage));
+    const ObjectDescription description = describe(source, all_access);
+    ObjectModel model = loadObject(description, IsolatedMeshLoader(findPackage, all_access));
     built.name = frameName(source.name.empty() ? description.name : source.name, description.mesh);
     built.mesh_file = std::filesystem::absolute(resolveMeshUri(description.mesh, findPackage)).string();
     built.mesh_scale = description.mesh_scale;
@@ -93,10 +109,8 @@ BuiltTracker buildTracker(const ObjectSource& source, const TrackerConfig& confi
 InitFilePose loadInitFile(const std::string& uri) {
   InitFilePose result;
   try {
-    const std::string path = resolveMeshUri(uri, findPackage);
-    std::ifstream file(path);
-    if (!file) throw std::invalid_argument("cannot open it");
-    const nlohmann::json json = nlohmann::json::parse(file);
+    const InputFile file(resolveMeshUri(uri, findPackage), kMaxInitFileBytes);
+    const nlohmann::json json = nlohmann::json::parse(file.read());
     result.T_camera_object = poseFromNumbers(json.at("cam_R_m2c").get<std::vector<double>>(),
                                              json.at("cam_t_m2c").get<std::vector<double>>());
   } catch (const std::exception& error) {

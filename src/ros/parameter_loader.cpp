@@ -124,6 +124,7 @@ NodeletOptions loadNodeletOptions(const ros::NodeHandle& private_node) {
   read("object_name", "a word", options.object.name);
   read("mesh", "the path of a mesh", options.object.mesh);
   read("mesh_scale", "a number (metres per unit of the mesh)", options.object.mesh_scale);
+  read("object_folders", "a list of folders", options.object_folders);
   read("init_file", "the path of a JSON file", options.init_file);
   read("last_pose_file", "the path of a JSON file", options.last_pose_file);
   read("interactive_marker", "true or false", options.interactive_marker);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/ros/robot_options.h"
 
-#include "depth_object_tracker/geometry/mesh_loader.h"
+#include "depth_object_tracker/geometry/isolated_mesh_loader.h"
 #include "depth_object_tracker/ros/object_source.h"
 #include "depth_object_tracker/ros/option_reader.h"
 
@@ -57,7 +57,7 @@ BuiltRobot buildRobot(const RobotOptions& options, const ros::NodeHandle& privat
       built.connection = std::make_shared<RobotConnection>(loadModel(options, private_node), options.config, tf);
       if (options.use_links_as_occluders) {
         const RobotModel& model = built.connection->model();
-        const LinkMeshes meshes = loadLinkMeshes(model, LinkShapes::kCollision, findPackage);
+        const LinkMeshes meshes = loadLinkMeshes(model, LinkShapes::kCollision, IsolatedMeshLoader(findPackage));
         built.warnings = meshes.problems;
         built.occluder = std::make_shared<RobotOccluder>(model, meshes);
       }

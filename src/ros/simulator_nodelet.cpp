@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/ros/simulator_nodelet.h"
 
+#include "depth_object_tracker/geometry/isolated_mesh_loader.h"
 #include "depth_object_tracker/ros/object_source.h"
 #include "depth_object_tracker/tracker/object_model.h"
 
@@ -40,7 +41,7 @@ void SimulatorNodelet::onInit() {
 void SimulatorNodelet::run() {
   try {
     const ObjectDescription description = loadObjectDescription(resolveMeshUri(options_.object_file, findPackage));
-    const ObjectModel object = loadObject(description, findPackage);
+    const ObjectModel object = loadObject(description, IsolatedMeshLoader(findPackage));
     SceneSimulator simulator(object.mesh, options_.simulation);
     NODELET_INFO_STREAM(getName() << ": simulates '" << object.name << "', scenario "
                                   << scenarioName(options_.simulation.scenario) << ", " << options_.rate_hz << " Hz");

@@ -3,6 +3,7 @@
 
 #include <image_transport/camera_common.h>
 #include <ros/master.h>
+#include <ros/this_node.h>
 
 #include <exception>
 #include <utility>
@@ -14,14 +15,20 @@ constexpr std::uint64_t kImagesUntilTfIsThere = 60;  // static transforms may co
 
 constexpr double kSilenceUntilTopicsAreListedS = 3.0;
 
-/// Topics that may be meant when no image comes. Asks the master, which takes a moment.
+/// Topics that may be meant when no image comes. Asks the master, which takes a moment. Not by
+/// ros::master::getTopics(): that waits for ever for a master that is gone.
 std::string listDepthTopics() {
-  ros::master::V_TopicInfo topics;
-  ros::master::getTopics(topics);
+  XmlRpc::XmlRpcValue arguments, response, topics;
+  arguments[0] = ros::this_node::getName();
+  arguments[1] = "";
+  if (!ros::master::execute("getPublishedTopics", arguments, response, topics, false)) {
+    return "the master does not answer; what is connected goes on";
+  }
   std::string names;
-  for (const auto& topic : topics) {
-    const bool is_depth = topic.datatype == "sensor_msgs/Image" && topic.name.find("depth") != std::string::npos;
-    if (is_depth) names += (names.empty() ? "" : ", ") + topic.name;
+  for (int i = 0; topics.getType() == XmlRpc::XmlRpcValue::TypeArray && i < topics.size(); ++i) {
+    const std::string name = topics[i][0], type = topics[i][1];
+    const bool is_depth = type == "sensor_msgs/Image" && name.find("depth") != std::string::npos;
+    if (is_depth) names += (names.empty() ? "" : ", ") + name;
   }
   return names.empty() ? "nobody publishes an image topic with 'depth' in its name"
                        : "depth images there are: " + names;
@@ -98,7 +105,8 @@ void TrackerNodelet::start() {
   }
   worker_->setObserver(
       [this](const DiagnosticSnapshot& snapshot, const TrackerSession& current) { observe(snapshot, current); });
-  services_ = std::make_unique<TrackerServices>(private_node, *worker_, *tf_buffer_);
+  services_ = std::make_unique<TrackerServices>(
+      private_node, *worker_, *tf_buffer_, accessForServices(options.object_folders, options.object, built.mesh_file));
   if (marker_) services_->offerMarker(*marker_);
   services_->setLoadedCallback([this](const TrackerConfig& config) { offerLiveParameters(config); });
   worker_->start();

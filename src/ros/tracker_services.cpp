@@ -5,6 +5,7 @@
 #include <future>
 #include <memory>
 #include <thread>
+#include <utility>
 
 namespace depth_object_tracker {
 namespace {
@@ -34,8 +35,9 @@ bool answer(const InitialisationOutcome& outcome, InitializeTracker::Response& r
 
 }  // namespace
 
-TrackerServices::TrackerServices(const ros::NodeHandle& private_node, TrackerWorker& worker, const tf2::BufferCore& tf)
-    : node_(private_node), worker_(worker), tf_(tf), spinner_(kNumThreads, &queue_) {
+TrackerServices::TrackerServices(const ros::NodeHandle& private_node, TrackerWorker& worker, const tf2::BufferCore& tf,
+                                 FileAccess access)
+    : node_(private_node), worker_(worker), tf_(tf), access_(std::move(access)), spinner_(kNumThreads, &queue_) {
   node_.setCallbackQueue(&queue_);
   servers_.push_back(node_.advertiseService("initialize", &TrackerServices::initialize, this));
   servers_.push_back(node_.advertiseService("load_object", &TrackerServices::loadObject, this));
@@ -206,7 +208,7 @@ bool TrackerServices::loadObject(LoadObject::Request& request, LoadObject::Respo
     response.message = parameters.problems.front();
     return true;
   }
-  const BuiltTracker built = buildTracker(sourceFor(request), parameters.config);
+  const BuiltTracker built = buildTracker(sourceFor(request), parameters.config, access_);
   if (!built.tracker) {
     response.message = built.problem;
     return true;

@@ -22,6 +22,13 @@ std::string withoutSlash(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
 
+std::string describeGap(const std::string& topic, double gap_s) {
+  std::ostringstream text;
+  text << "image on '" << topic << "' has a stamp " << gap_s
+       << " s after the one before: the camera stopped, or a clock was set; the object's velocity is forgotten";
+  return text.str();
+}
+
 }  // namespace
 
 TrackerSession::TrackerSession(const std::string& name, const std::string& image_topic, const std::string& info_topic,
@@ -280,6 +287,8 @@ void TrackerSession::runTracker(FrameOutcome& outcome) {
   if (sharing_) sharing_->tell(camera_frame_, outcome.result, shared_mesh_);
   if (is_restored) outcome.result.input = TrackerResult::Input::kTimeJumpedBack;
   outcome.processed = outcome.result.input != TrackerResult::Input::kDuplicateStamp;
+  const double gap_s = stamp_s - last_stamp_s_.value_or(stamp_s);
+  if (gap_s > object_.tracker->config().process.max_gap_s) log_.warn(describeGap(image_topic_, gap_s));
   last_stamp_s_ = stamp_s;
   reportInput(outcome, is_restored);
   const bool has_state_to_tell = outcome.result.state != TrackerState::kUninitialized && outcome.result.has_pose;

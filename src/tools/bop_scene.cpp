@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 int sceneIdOf(const fs::path& folder) {
   const fs::path absolute = fs::weakly_canonical(folder);
   const std::string name = absolute.filename().string();
-  const bool is_number = !name.empty() && name.size() < 9 && std::all_of(name.begin(), name.end(), ::isdigit);
+  const bool is_number = !name.empty() && name.size() < 9 && name.find_first_not_of("0123456789") == std::string::npos;
   return is_number ? std::stoi(name) : 0;
 }
 

@@ -6,7 +6,10 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 
 namespace depth_object_tracker {
 
@@ -21,8 +24,31 @@ DepthImageView DepthPicture::view(double unit_m) const {
   return view;
 }
 
+namespace {
+
+constexpr std::uint32_t kMaxPixels = 1u << 26;  // 8192 x 8192
+
+/// A header may promise gigabytes that are not there: the decoder would make room for them first.
+void checkPromisedSize(const std::string& path) {
+  constexpr std::size_t kHeaderBytes = 24;  // signature, length and name of the first chunk, width, height
+  std::array<unsigned char, kHeaderBytes> header{};
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(reinterpret_cast<char*>(header.data()), kHeaderBytes) || header[1] != 'P')
+    return;  // told by the decoder
+  const auto word = [&header](std::size_t at) {
+    return std::uint64_t{header[at]} << 24 | std::uint64_t{header[at + 1]} << 16 | std::uint64_t{header[at + 2]} << 8 |
+           header[at + 3];
+  };
+  if (word(16) * word(20) <= kMaxPixels) return;
+  throw InputError(path + " promises " + std::to_string(word(16)) + "x" + std::to_string(word(20)) +
+                   " pixels, more than are accepted");
+}
+
+}  // namespace
+
 DepthPicture readDepthPicture(const std::string& path) {
   if (!std::filesystem::exists(path)) throw InputError("there is no picture " + path);
+  checkPromisedSize(path);
   cv::Mat decoded;
   try {
     decoded = cv::imread(path, cv::IMREAD_UNCHANGED);

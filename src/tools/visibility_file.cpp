@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -54,7 +55,10 @@ void readVisibility(BopScene& scene) {
     const std::string where = path + ", line " + std::to_string(number);
     if (cells.empty()) continue;
     if (cells.size() <= std::max(frame_column, fraction_column)) throw InputError(where + " has too few columns");
-    fractions[static_cast<int>(toNumber(cells[frame_column], where))] = toNumber(cells[fraction_column], where);
+    const double frame = toNumber(cells[frame_column], where);
+    if (frame < 0.0 || frame > std::numeric_limits<int>::max())
+      throw InputError(where + ": \"" + cells[frame_column] + "\" is not a frame number");
+    fractions[static_cast<int>(frame)] = toNumber(cells[fraction_column], where);
   }
   scene.has_visibility = true;
   for (SceneFrame& frame : scene.frames) {

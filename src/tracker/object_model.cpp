@@ -16,6 +16,7 @@ namespace {
 
 /// Rounded matrices are repaired, wrong ones refused.
 constexpr double kRotationTolerance = 1e-3;
+constexpr std::uintmax_t kMaxObjectFileBytes = 1 << 20;
 
 /// Where in which file a value stands; turns complaints into one readable sentence.
 class Place {
@@ -151,22 +152,34 @@ ObjectDescription readDescription(const YAML::Node& root, const std::string& yam
 
 }  // namespace
 
-ObjectDescription loadObjectDescription(const std::string& yaml_file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(yaml_file, error)) {
-    throw std::invalid_argument(yaml_file + ": there is no such object file");
-  }
+ObjectDescription parseObjectDescription(const std::string& text, const std::string& yaml_file) {
   try {
-    return readDescription(YAML::LoadFile(yaml_file), yaml_file);
+    return readDescription(YAML::Load(text), yaml_file);
   } catch (const YAML::Exception& yaml_error) {
     throw std::invalid_argument(yaml_file + ": is not valid YAML: " + yaml_error.what());
   }
 }
 
+ObjectDescription loadObjectDescription(const std::string& yaml_file, const FileAccess& access) {
+  std::string text;
+  try {
+    text = InputFile(yaml_file, kMaxObjectFileBytes, access).read();
+  } catch (const FileError& error) {
+    throw std::invalid_argument(yaml_file + ": there is no such object file that can be read: " + error.what());
+  }
+  return parseObjectDescription(text, yaml_file);
+}
+
 ObjectModel loadObject(const ObjectDescription& description, const PackageResolver& resolve_package) {
+  return loadObject(description, [&resolve_package](const std::string& uri, double scale) {
+    return loadMesh(uri, scale, resolve_package);
+  });
+}
+
+ObjectModel loadObject(const ObjectDescription& description, const MeshLoader& load_mesh) {
   ObjectModel object;
   object.name = description.name;
-  object.mesh = loadMesh(description.mesh, description.mesh_scale, resolve_package);
+  object.mesh = load_mesh(description.mesh, description.mesh_scale);
   object.symmetries = description.symmetries;
   return object;
 }

@@ -12,6 +12,14 @@
 namespace depth_object_tracker {
 namespace {
 
+TEST(RobotModel, LinksInACircleAreRefused) {
+  EXPECT_THROW(RobotModel::fromText(R"(<robot name="r"><link name="base"/><link name="x"/><link name="y"/>
+      <joint name="a" type="fixed"><parent link="x"/><child link="y"/></joint>
+      <joint name="b" type="fixed"><parent link="y"/><child link="x"/></joint></robot>)",
+                                    "test"),
+               RobotModelError);
+}
+
 std::string problemOf(const std::function<void()>& action) {
   try {
     action();

@@ -5,7 +5,10 @@
 #include "temporary_folder.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 
 namespace depth_object_tracker {
@@ -53,6 +56,76 @@ TEST(ObjectSource, SaysWhatIsWrong) {
   EXPECT_TRUE(mentions(buildTracker(source, TrackerConfig()).problem, "mesh_scale"));
   source.object_file = "package://no_such_package_here/x.yaml";
   EXPECT_TRUE(mentions(buildTracker(source, TrackerConfig()).problem, "no_such_package_here"));
+}
+
+/// What ~load_object of a tracker does that began with `at_start`.
+BuiltTracker load(const ObjectSource& source, const std::vector<std::string>& folders,
+                  const ObjectSource& at_start = {}, const std::string& mesh_at_start = "") {
+  return buildTracker(source, TrackerConfig(), accessForServices(folders, at_start, mesh_at_start));
+}
+
+class ServiceAccess : public testing::Test {
+ protected:
+  ServiceAccess() {
+    setenv("ROS_PACKAGE_PATH", PROJECT_SOURCE_FOLDER, 1);  // also where no workspace is sourced
+    std::filesystem::create_directory(folder_.path() / "listed");
+    std::filesystem::copy_file(testMeshFile(), folder_.path() / "listed/part.obj");
+    std::filesystem::copy_file(testMeshFile(), folder_.path() / "elsewhere.obj");
+    listed_ = {(folder_.path() / "listed").string()};
+  }
+  ObjectSource mesh(const std::string& name) const {
+    ObjectSource source;
+    source.mesh = (folder_.path() / name).string();
+    return source;
+  }
+  ObjectSource objectFile(const std::string& mesh) const {
+    ObjectSource source;
+    source.object_file = folder_.write("listed/object.yaml", "name: part\nmesh: " + mesh + "\n");
+    return source;
+  }
+  TemporaryFolder folder_;
+  std::vector<std::string> listed_;
+};
+
+TEST_F(ServiceAccess, ListedFoldersAndPackagesAreRead) {
+  EXPECT_EQ(load(mesh("listed/part.obj"), listed_).problem, "");
+  EXPECT_EQ(load(objectFile("part.obj"), listed_).problem, "");
+  ObjectSource of_package;
+  of_package.mesh = "package://depth_object_tracker/meshes/bracket.obj";
+  EXPECT_EQ(load(of_package, {}).problem, "");
+  of_package.mesh = "";
+  of_package.object_file = "package://depth_object_tracker/config/objects/box.yaml";
+  EXPECT_EQ(load(of_package, {}).problem, "");
+}
+
+TEST_F(ServiceAccess, WhatLiesElsewhereIsRefusedWithAdvice) {
+  const std::string problem = load(mesh("elsewhere.obj"), listed_).problem;
+  EXPECT_TRUE(mentions(problem, "elsewhere.obj: it lies outside")) << problem;
+  EXPECT_TRUE(mentions(problem, "~object_folders")) << problem;
+  EXPECT_TRUE(mentions(load(objectFile("../elsewhere.obj"), listed_).problem, "it lies outside"));
+  EXPECT_TRUE(mentions(load(mesh("listed/../elsewhere.obj"), listed_).problem, "'..'"));
+  ObjectSource of_package;
+  of_package.mesh = "package://depth_object_tracker/../elsewhere.obj";
+  EXPECT_TRUE(mentions(load(of_package, listed_).problem, "'..'"));
+  std::filesystem::create_symlink(folder_.path() / "elsewhere.obj", folder_.path() / "listed/link.obj");
+  EXPECT_TRUE(mentions(load(mesh("listed/link.obj"), listed_).problem, "by a link"));
+}
+
+TEST_F(ServiceAccess, TheObjectAtStartMayBeReadAgain) {
+  const ObjectSource at_start = mesh("elsewhere.obj");
+  EXPECT_EQ(load(at_start, {}, at_start, at_start.mesh).problem, "");
+  const ObjectSource file = objectFile("part.obj");
+  EXPECT_EQ(load(file, {}, file, mesh("listed/part.obj").mesh).problem, "");
+}
+
+TEST_F(ServiceAccess, PipesAreRefusedAtOnce) {
+  ASSERT_EQ(mkfifo((folder_.path() / "listed/pipe.obj").c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo((folder_.path() / "listed/pipe.yaml").c_str(), 0600), 0);
+  EXPECT_TRUE(mentions(load(mesh("listed/pipe.obj"), listed_).problem, "is not a regular file"));
+  ObjectSource source;
+  source.object_file = (folder_.path() / "listed/pipe.yaml").string();
+  EXPECT_TRUE(mentions(load(source, listed_).problem, "is not a regular file"));
+  EXPECT_TRUE(mentions(loadInitFile((folder_.path() / "listed/pipe.obj").string()).problem, "is not a regular file"));
 }
 
 class InitFileTest : public testing::Test {

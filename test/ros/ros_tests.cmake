@@ -5,7 +5,7 @@ endif()
 
 add_tracker_test(ros_conversions_test
   SOURCES ros/image_conversions_test.cpp ros/camera_conversions_test.cpp ros/pose_validation_test.cpp ros/object_source_test.cpp
-          ros/overlay_test.cpp
+          ros/lying_messages_test.cpp ros/overlay_test.cpp
   LIBRARIES depth_object_tracker_ros)
 add_tracker_test(ros_inputs_test
   SOURCES ros/camera_info_matcher_test.cpp ros/frame_inbox_test.cpp ros/parameter_loader_test.cpp ros/pose_memory_test.cpp
@@ -43,6 +43,12 @@ add_script_test(launch_files_test
   ${CMAKE_CURRENT_SOURCE_DIR}/ros/check_launch_files.py ${PROJECT_SOURCE_DIR}/launch ${PROJECT_SOURCE_DIR}/README.md)
 
 add_script_test(object_list_test /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/ros/check_object_list.py)
+add_executable(master_loss_test ros/master_loss_test.cpp)
+target_link_libraries(master_loss_test PRIVATE depth_object_tracker_ros depth_object_tracker_warnings GTest::gtest)
+target_compile_definitions(master_loss_test PRIVATE PROJECT_SOURCE_FOLDER="${PROJECT_SOURCE_DIR}")
+add_script_test(tracker_outlives_the_master ${CMAKE_CURRENT_SOURCE_DIR}/ros/check_master_loss.py
+  $<TARGET_FILE:tracker_node> $<TARGET_FILE:master_loss_test> ${PROJECT_SOURCE_DIR}/meshes/bracket.obj)
+set_tests_properties(tracker_outlives_the_master PROPERTIES TIMEOUT 400)
 
 find_program(ROSTEST_PROGRAM rostest)
 if(ROSTEST_PROGRAM)
@@ -51,6 +57,11 @@ if(ROSTEST_PROGRAM)
   add_ros_test(robot_rostest ros/robot_rostest.cpp)
   add_ros_test(output_frames_rostest ros/output_frames_rostest.cpp)
   add_ros_test(tracker_bad_input_rostest ros/tracker_bad_input_rostest.cpp)
+  add_executable(test_fault_injector ros/fault_injector_node.cpp)
+  target_link_libraries(test_fault_injector PRIVATE depth_object_tracker_warnings depth_object_tracker_ros)
+  add_ros_test(fault_injection_rostest ros/fault_injection_rostest.cpp)
+  add_dependencies(fault_injection_rostest test_fault_injector)
+  set_tests_properties(fault_injection_rostest PROPERTIES TIMEOUT 1000)
   add_ros_test(tracker_bad_start_rostest ros/tracker_bad_start_rostest.cpp)
   add_ros_test(tracker_diagnostics_rostest ros/tracker_diagnostics_rostest.cpp)
   add_ros_test(tracker_outputs_rostest ros/tracker_outputs_rostest.cpp)

@@ -264,6 +264,16 @@ TEST_F(Services, LoadObjectReplacesTheObject) {
   EXPECT_EQ(tracker().status()->object_name, "bracket");
 }
 
+TEST_F(Services, LoadObjectReadsNoFileFromAnywhere) {
+  LoadObject::Request request;
+  request.mesh = "/etc/hostname";
+  const auto response = callService<LoadObject>("load_object", request);
+  EXPECT_FALSE(response.success);
+  EXPECT_NE(response.message.find("~object_folders"), std::string::npos) << response.message;
+  tracker().step();
+  EXPECT_EQ(tracker().status()->object_name, "bracket");
+}
+
 TEST_F(Services, SetGraspRefusesLinksThatItCannotFollow) {
   SetGrasp::Request request;
   request.grasped = true;

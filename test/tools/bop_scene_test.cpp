@@ -119,7 +119,8 @@ TEST(BopScene, BadInputSaysFileAndKey) {
            {"scene_control.json", R"({"0": {"linear": [0,0,0]}})", "grasped"},
            {"scene_control.json", R"({"0": {"grasped": true, "linear": [0,0,0]}})", "angular"},
            {"visibility.csv", "frame,share\n", "fraction_visible"},
-           {"visibility.csv", "frame,fraction_visible\n0,high\n", "line 2"}}) {
+           {"visibility.csv", "frame,fraction_visible\n0,high\n", "line 2"},
+           {"visibility.csv", "frame,fraction_visible\n1e300,1\n", "not a frame number"}}) {
     const SmallScene scene(2);
     scene.write(bad.file, bad.content);
     const std::string message = problemOf(scene);
@@ -154,6 +155,13 @@ TEST(BopScene, BadPicturesAreEmptyFramesWithAWarning) {
   EXPECT_THAT(warnings[1], HasSubstr("8 bits"));
   EXPECT_THAT(warnings[2], HasSubstr("3 channel"));
   EXPECT_THAT(warnings[3], HasSubstr("truncated"));
+}
+
+TEST(BopScene, APictureThatPromisesGigabytesIsRefusedBeforeTheyAreTaken) {
+  const TemporaryFolder folder;
+  const std::string start("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x7d\0\0\0\x7d\0\x10\0\0\0\0", 29);
+  EXPECT_THAT(messageOf<InputError>([&] { readDepthPicture(folder.write("a.png", start)); }),
+              HasSubstr("promises 32000x32000 pixels"));
 }
 
 TEST(BopModelsInfo, SymmetriesAreInTheMeshFilesUnit) {

@@ -8,6 +8,9 @@ add_tracker_test(geometry_unit_tests SOURCES
   unit/stable_poses_test.cpp
   unit/symmetry_test.cpp
   unit/triangle_mesh_test.cpp)
+add_tracker_test(file_unit_tests SOURCES unit/file_access_test.cpp unit/isolated_mesh_loader_test.cpp)
+target_include_directories(file_unit_tests PRIVATE ${PROJECT_SOURCE_DIR}/src)
+add_dependencies(file_unit_tests mesh_reader)
 add_tracker_test(input_check_unit_tests SOURCES unit/input_check_test.cpp)
 add_tracker_test(plane_finder_unit_tests SOURCES unit/plane_finder_test.cpp)
 add_tracker_test(parameter_unit_tests SOURCES

@@ -26,6 +26,9 @@ constexpr double kMaxMeshDiameterM = 5.0;
 /// @throws MeshError naming the package that could not be found, or a scheme that is not supported.
 std::string resolveMeshUri(const std::string& uri, const PackageResolver& resolve_package = {});
 
+/// Folder of the package that a `package://` URI names; "" for other URIs and unknown packages.
+std::string packageFolder(const std::string& uri, const PackageResolver& resolve_package);
+
 /// Loads a mesh: polygons triangulated, scene-graph transforms applied, corners at the same place joined, degenerate
 /// triangles dropped, any winding. The axes are the file's own: a DAE file's unit is applied, its up axis is not (as
 /// rviz does), so that the same part saved as .dae and as .stl has the same origin and axes.
@@ -34,5 +37,8 @@ std::string resolveMeshUri(const std::string& uri, const PackageResolver& resolv
 /// @throws MeshError when the file is missing, unreadable, empty, or its diameter is not in
 ///   [kMinMeshDiameterM, kMaxMeshDiameterM] (probably the wrong unit: the message proposes a scale).
 TriangleMesh loadMesh(const std::string& uri, double scale = 1.0, const PackageResolver& resolve_package = {});
+
+/// A way to load meshes: loadMesh() itself, or an IsolatedMeshLoader.
+using MeshLoader = std::function<TriangleMesh(const std::string& uri, double scale)>;
 
 }  // namespace depth_object_tracker

@@ -25,5 +25,6 @@ struct LinkMeshes {
 /// Boxes, cylinders, spheres, and meshes through assimp. A link without shapes of the wanted kind takes those of the
 /// other.
 LinkMeshes loadLinkMeshes(const RobotModel& model, LinkShapes shapes, const PackageResolver& resolve_package = {});
+LinkMeshes loadLinkMeshes(const RobotModel& model, LinkShapes shapes, const MeshLoader& load_mesh);
 
 }  // namespace depth_object_tracker

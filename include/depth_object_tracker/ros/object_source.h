@@ -2,11 +2,13 @@
 // From what the parameters or a service call name to a tracker that is ready for its first image.
 #pragma once
 
+#include "depth_object_tracker/geometry/file_access.h"
 #include "depth_object_tracker/ros/parameter_loader.h"
 #include "depth_object_tracker/tracker/object_tracker.h"
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace depth_object_tracker {
 
@@ -19,8 +21,13 @@ struct BuiltTracker {
   std::string problem;   ///< what was read, what is wrong, what to do
 };
 
-/// Loads the mesh and builds a tracker; never throws. May take seconds for a large mesh.
-BuiltTracker buildTracker(const ObjectSource& source, const TrackerConfig& config);
+/// Loads the mesh, in a process of its own, and builds a tracker; never throws. May take seconds for a large mesh.
+/// @param access places that object file and mesh may lie in, besides the packages that `package://` names.
+BuiltTracker buildTracker(const ObjectSource& source, const TrackerConfig& config, const FileAccess& access = {});
+
+/// What a service may name: files of packages, of the given folders, and those of the object at start.
+FileAccess accessForServices(const std::vector<std::string>& object_folders, const ObjectSource& at_start,
+                             const std::string& mesh_file_at_start);
 
 /// Folder of a ROS package, "" when unknown.
 std::string findPackage(const std::string& package);

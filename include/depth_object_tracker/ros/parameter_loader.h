@@ -34,10 +34,11 @@ struct ObjectSource {
 
 struct NodeletOptions {
   ObjectSource object;
-  std::string paths_from;          ///< folder that relative paths of files below are meant from; empty = the process's
-  std::string init_file;           ///< JSON pose at start; empty = wait to be told
-  std::string last_pose_file;      ///< the last good pose is kept there and taken up again; empty = not
-  bool interactive_marker = true;  ///< the mesh in rviz, to be dragged to the object
+  std::string paths_from;  ///< folder that relative paths of files below are meant from; empty = the process's
+  std::vector<std::string> object_folders;  ///< from which ~load_object may read, besides packages
+  std::string init_file;                    ///< JSON pose at start; empty = wait to be told
+  std::string last_pose_file;               ///< the last good pose is kept there and taken up again; empty = not
+  bool interactive_marker = true;           ///< the mesh in rviz, to be dragged to the object
   std::string image_transport = "raw";
   bool publish_tf = true;
   bool publish_diagnostics = true;

@@ -24,8 +24,9 @@ namespace depth_object_tracker {
 
 class TrackerServices {
  public:
-  /// Answers calls at once. @param worker, tf outlive this object.
-  TrackerServices(const ros::NodeHandle& private_node, TrackerWorker& worker, const tf2::BufferCore& tf);
+  /// Answers calls at once. @param worker, tf outlive this object. @param access files that ~load_object may read.
+  TrackerServices(const ros::NodeHandle& private_node, TrackerWorker& worker, const tf2::BufferCore& tf,
+                  FileAccess access);
 
   /// Told the configuration of each object that was loaded, on a service's thread.
   using LoadedCallback = std::function<void(const TrackerConfig&)>;
@@ -56,6 +57,7 @@ class TrackerServices {
   ros::NodeHandle node_;
   TrackerWorker& worker_;
   const tf2::BufferCore& tf_;
+  const FileAccess access_;
   const InitialPoseMarker* marker_ = nullptr;
   ros::CallbackQueue queue_;
   ros::AsyncSpinner spinner_;
