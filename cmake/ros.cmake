@@ -22,6 +22,7 @@ add_library(depth_object_tracker_ros SHARED
   src/ros/parameter_loader.cpp
   src/ros/particle_messages.cpp
   src/ros/pose_memory.cpp
+  src/ros/pose_messages.cpp
   src/ros/pose_validation.cpp
   src/ros/rate_meter.cpp
   src/ros/result_publisher.cpp

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What this process holds of the system, from /proc.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace depth_object_tracker {
+
+struct ResourceUse {
+  std::size_t resident_kib = 0;
+  std::size_t handles = 0;  ///< open file descriptors
+  std::size_t threads = 0;
+};
+
+inline ResourceUse readResourceUse() {
+  ResourceUse use;
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    if (word == "VmRSS:") status >> use.resident_kib;
+    if (word == "Threads:") status >> use.threads;
+  }
+  const std::filesystem::directory_iterator handles("/proc/self/fd");
+  use.handles = static_cast<std::size_t>(std::distance(begin(handles), end(handles)));
+  return use;
+}
+
+}  // namespace depth_object_tracker
