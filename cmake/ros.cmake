@@ -43,6 +43,7 @@ target_include_directories(depth_object_tracker_ros SYSTEM PUBLIC ${catkin_INCLU
 target_link_libraries(depth_object_tracker_ros
   PUBLIC depth_object_tracker_robot ${catkin_LIBRARIES}
   PRIVATE depth_object_tracker_warnings nlohmann_json::nlohmann_json)
+precompile_headers(depth_object_tracker_ros ${ROS_HEADERS})
 add_dependencies(depth_object_tracker_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 
 # The plugins, apart from the classes so that tests and plain nodes can link those.

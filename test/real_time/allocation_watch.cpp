@@ -3,6 +3,7 @@
 #include "allocation_watch.h"
 
 #include <execinfo.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
@@ -18,14 +19,15 @@ void* __libc_memalign(std::size_t alignment, std::size_t size);
 namespace {
 
 std::atomic<std::int64_t> num_allocations{0}, num_bytes{0};
-std::atomic<bool> tell_next{false};
+std::atomic<bool> tells{false};
 
 void count(std::size_t size) {
   num_allocations.fetch_add(1, std::memory_order_relaxed);
   num_bytes.fetch_add(static_cast<std::int64_t>(size), std::memory_order_relaxed);
-  if (!tell_next.exchange(false, std::memory_order_relaxed)) return;
+  if (!tells.load(std::memory_order_relaxed)) return;
   void* frames[24];
   backtrace_symbols_fd(frames, backtrace(frames, 24), 2);
+  [[maybe_unused]] const auto written = write(2, "\n", 1);
 }
 
 }  // namespace
@@ -69,10 +71,10 @@ HeapUse heapUse() {
   return {num_allocations.load(std::memory_order_relaxed), num_bytes.load(std::memory_order_relaxed)};
 }
 
-void AllocationWatch::tellNext() {
+void tellAllocations(bool wanted) {
   void* frames[1];
   backtrace(frames, 1);  // loads what it needs
-  tell_next = true;
+  tells = wanted;
 }
 
 }  // namespace depth_object_tracker

@@ -23,11 +23,11 @@ class AllocationWatch {
     return {now.allocations - begin_.allocations, now.bytes - begin_.bytes};
   }
 
-  /// While this is alive the first allocation of its thread prints where it comes from. For finding them by hand.
-  static void tellNext();
-
  private:
   HeapUse begin_;
 };
+
+/// Every allocation prints its calls to standard error, for finding it.
+void tellAllocations(bool wanted);
 
 }  // namespace depth_object_tracker

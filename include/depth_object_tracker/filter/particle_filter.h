@@ -70,10 +70,11 @@ class ParticleFilter {
   void summarise(FilterEstimate& estimate, const ProcessStep& step);
   void resampleIfNeeded(PoseLikelihood& likelihood);
   void predict(const ProcessStep& step);
-  std::vector<LocalMode> findModes(PoseLikelihood& likelihood, const ProcessStep& step, double exponent,
-                                   const std::vector<Pose>& hypotheses);
+  /// Fills modes_.
+  void findModes(PoseLikelihood& likelihood, const ProcessStep& step, double exponent,
+                 const std::vector<Pose>& hypotheses);
   void drawFromProcess(const ProcessStep& step);
-  void drawInformed(const ProcessStep& step, const std::vector<LocalMode>& modes);
+  void drawInformed(const ProcessStep& step);
   void foldSymmetries();
   void updateVelocities(const ProcessStep& step);
   void estimateVelocity(FilterEstimate& estimate) const;
@@ -99,6 +100,10 @@ class ParticleFilter {
   std::vector<double> log_proposal_ratio_;  // log p(r | r_prev) - log q(r)
   std::vector<double> log_likelihoods_;
   std::vector<double> log_weights_;
+  std::vector<LocalMode> modes_;  // of this frame
+  // Scratch, kept so that a frame allocates nothing.
+  std::vector<Pose> region_;
+  std::vector<int> offspring_, source_;
   Matrix6d data_share_ = Matrix6d::Identity();
   Pose last_mean_ = Pose::Identity();
 };
