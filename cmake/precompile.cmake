@@ -1,6 +1,8 @@
-# PRECOMPILE_HEADERS: other packages' headers are read once for each library and once for all tests. For builds of everything
-# (scripts/test); off by default, so that a missing include shows. With ccache set CCACHE_SLOPPINESS=pch_defines,time_macros.
-option(PRECOMPILE_HEADERS "Precompile the headers of Eigen, GoogleTest and ROS" OFF)
+# PRECOMPILE_HEADERS: other packages' headers are read once for each library and once for all tests. Off by default, so that a
+# missing include shows. scripts/test takes ROS: a build without ROS then shares the core's objects through ccache, which needs
+# CCACHE_SLOPPINESS=pch_defines,time_macros.
+set(PRECOMPILE_HEADERS OFF CACHE STRING "Precompile other packages' headers: OFF, ROS (for the ROS layer alone) or ALL")
+set_property(CACHE PRECOMPILE_HEADERS PROPERTY STRINGS OFF ROS ALL)
 
 set(CORE_HEADERS <Eigen/Core> <Eigen/Geometry> <Eigen/Cholesky> <Eigen/Eigenvalues>
   <algorithm> <cmath> <functional> <memory> <optional> <sstream> <stdexcept> <string> <vector>)
@@ -10,14 +12,14 @@ set(TEST_HEADERS ${CORE_HEADERS} <gtest/gtest.h>)
 
 # precompile_headers(TARGET HEADERS...)
 function(precompile_headers target)
-  if(PRECOMPILE_HEADERS)
+  if(PRECOMPILE_HEADERS STREQUAL "ALL" OR (PRECOMPILE_HEADERS STREQUAL "ROS" AND target STREQUAL "depth_object_tracker_ros"))
     target_precompile_headers(${target} PRIVATE ${ARGN})
   endif()
 endfunction()
 
 # share_precompiled_headers(TARGET OWNER HEADERS...): the owner, a program that is never linked, is made by the first call.
 function(share_precompiled_headers target owner)
-  if(NOT PRECOMPILE_HEADERS)
+  if(NOT PRECOMPILE_HEADERS STREQUAL "ALL")
     return()
   endif()
   if(NOT TARGET ${owner})
