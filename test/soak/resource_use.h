@@ -2,6 +2,8 @@
 // What this process holds of the system, from /proc.
 #pragma once
 
+#include <malloc.h>
+
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -12,7 +14,8 @@ namespace depth_object_tracker {
 
 struct ResourceUse {
   std::size_t resident_kib = 0;
-  std::size_t handles = 0;  ///< open file descriptors
+  std::size_t heap_kib = 0;  ///< allocated and not freed: grows with a leak, not with fragmentation
+  std::size_t handles = 0;   ///< open file descriptors
   std::size_t threads = 0;
 };
 
@@ -23,6 +26,8 @@ inline ResourceUse readResourceUse() {
     if (word == "VmRSS:") status >> use.resident_kib;
     if (word == "Threads:") status >> use.threads;
   }
+  const auto heap = mallinfo2();
+  use.heap_kib = (heap.uordblks + heap.hblkhd) / 1024;
   const std::filesystem::directory_iterator handles("/proc/self/fd");
   use.handles = static_cast<std::size_t>(std::distance(begin(handles), end(handles)));
   return use;

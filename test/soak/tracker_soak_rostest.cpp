@@ -97,8 +97,8 @@ TEST(TrackerSoak, NothingLeaksAndNothingHangs) {
       late_most.resident_kib = std::max(late_most.resident_kib, readResourceUse().resident_kib);
     if (frames >= 20 && k % (frames / 20) == 0) {
       end = readResourceUse();
-      std::printf("frame %d: %zu KiB resident, %zu handles, %zu threads, %.1f s\n", k, end.resident_kib, end.handles,
-                  end.threads, (ros::WallTime::now() - begin).toSec());
+      std::printf("frame %d: %zu KiB resident, %zu KiB of heap, %zu handles, %zu threads, %.1f s\n", k,
+                  end.resident_kib, end.heap_kib, end.handles, end.threads, (ros::WallTime::now() - begin).toSec());
       std::fflush(stdout);
     }
   }
