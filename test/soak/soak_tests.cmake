@@ -8,7 +8,10 @@ target_include_directories(tracker_soak_rostest PRIVATE ${CMAKE_CURRENT_SOURCE_D
 target_compile_definitions(tracker_soak_rostest PRIVATE PROJECT_SOURCE_FOLDER="${PROJECT_SOURCE_DIR}")
 target_link_libraries(tracker_soak_rostest PRIVATE depth_object_tracker_ros depth_object_tracker_warnings GTest::gtest)
 add_dependencies(tracker_soak_rostest depth_object_tracker_nodelets)
-add_test(NAME tracker_soak_rostest
-  COMMAND ${CATKIN_DEVEL_PREFIX}/env.sh rostest ${CMAKE_CURRENT_SOURCE_DIR}/soak/tracker_soak_rostest.test)
-set_tests_properties(tracker_soak_rostest PROPERTIES TIMEOUT 600
-  ENVIRONMENT "PATH=/usr/bin:$ENV{PATH};ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;ROS_HOSTNAME=localhost")
+function(add_soak_test name)
+  add_test(NAME ${name} COMMAND ${CATKIN_DEVEL_PREFIX}/env.sh rostest ${CMAKE_CURRENT_SOURCE_DIR}/soak/${name}.test)
+  set_tests_properties(${name} PROPERTIES TIMEOUT 600
+    ENVIRONMENT "PATH=/usr/bin:$ENV{PATH};ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;ROS_HOSTNAME=localhost")
+endfunction()
+
+add_soak_test(tracker_soak_rostest)

@@ -111,6 +111,7 @@ TEST(TrackerSoak, NothingLeaksAndNothingHangs) {
   events.print();
   std::printf("resident memory: %zu KiB at half time, at most %zu KiB after: %+.2f %%\n", half.resident_kib,
               late_most.resident_kib, 100.0 * growth);
+  std::printf("most at any time, with what malloc keeps: %zu KiB\n", end.peak_kib);
   std::printf("handles %zu -> %zu, threads %zu -> %zu (first fifth -> end)\n", early.handles, end.handles,
               early.threads, end.threads);
   printLatency(latencies);
