@@ -19,7 +19,14 @@ target_compile_options(depth_object_tracker_warnings INTERFACE
   -ffp-contract=off -fno-math-errno -fno-trapping-math $<$<BOOL:${WARNINGS_AS_ERRORS}>:-Werror>)
 
 if(SANITIZE)
-  add_compile_options(-fsanitize=${SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  # -O1 after the build type's own: quick to compile, and stacks that can be read. Two instruction sets of Highway are enough.
+  add_compile_options(-O1 -finline-small-functions -fsanitize=${SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${SANITIZE})
-  add_compile_definitions(EIGEN_INITIALIZE_MATRICES_BY_NAN)
+  add_compile_definitions(EIGEN_INITIALIZE_MATRICES_BY_NAN DEPTH_OBJECT_TRACKER_FEW_TARGETS)
+endif()
+if(COVERAGE)
+  # Two instruction sets of Highway do as well: the same lines are compiled for each.
+  add_compile_options(-O1 --coverage -fprofile-update=atomic)
+  add_link_options(--coverage)
+  add_compile_definitions(DEPTH_OBJECT_TRACKER_FEW_TARGETS)
 endif()

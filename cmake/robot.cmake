@@ -34,3 +34,4 @@ target_include_directories(depth_object_tracker_robot SYSTEM
 target_link_libraries(depth_object_tracker_robot
   PUBLIC depth_object_tracker_core
   PRIVATE depth_object_tracker_warnings ${urdfdom_LIBRARIES} ${orocos_kdl_LIBRARIES} ${KDL_PARSER_LIBRARY})
+precompile_headers(depth_object_tracker_robot ${CORE_HEADERS})

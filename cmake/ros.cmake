@@ -22,6 +22,7 @@ add_library(depth_object_tracker_ros SHARED
   src/ros/parameter_loader.cpp
   src/ros/particle_messages.cpp
   src/ros/pose_memory.cpp
+  src/ros/pose_messages.cpp
   src/ros/pose_validation.cpp
   src/ros/rate_meter.cpp
   src/ros/result_publisher.cpp
@@ -42,6 +43,7 @@ target_include_directories(depth_object_tracker_ros SYSTEM PUBLIC ${catkin_INCLU
 target_link_libraries(depth_object_tracker_ros
   PUBLIC depth_object_tracker_robot ${catkin_LIBRARIES}
   PRIVATE depth_object_tracker_warnings nlohmann_json::nlohmann_json)
+precompile_headers(depth_object_tracker_ros ${ROS_HEADERS})
 add_dependencies(depth_object_tracker_ros mesh_reader ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 
 # The plugins, apart from the classes so that tests and plain nodes can link those.

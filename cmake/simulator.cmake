@@ -43,6 +43,7 @@ target_include_directories(depth_object_tracker_simulator PRIVATE ${CMAKE_CURREN
 target_link_libraries(depth_object_tracker_simulator
   PUBLIC depth_object_tracker_core
   PRIVATE depth_object_tracker_warnings opencv_core opencv_imgcodecs nlohmann_json::nlohmann_json)
+precompile_headers(depth_object_tracker_simulator ${CORE_HEADERS})
 
 add_executable(simulate_scene src/simulator/simulate_scene.cpp)
 target_link_libraries(simulate_scene PRIVATE depth_object_tracker_simulator depth_object_tracker_warnings CLI11::CLI11)

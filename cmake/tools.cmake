@@ -20,6 +20,7 @@ add_library(depth_object_tracker_tools SHARED
 target_link_libraries(depth_object_tracker_tools
   PUBLIC depth_object_tracker_core
   PRIVATE depth_object_tracker_warnings nlohmann_json::nlohmann_json CLI11::CLI11 opencv_core opencv_imgcodecs)
+precompile_headers(depth_object_tracker_tools ${CORE_HEADERS})
 
 add_executable(track_sequence src/tools/track_sequence.cpp)
 target_link_libraries(track_sequence PRIVATE depth_object_tracker_tools depth_object_tracker_warnings)

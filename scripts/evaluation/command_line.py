@@ -5,8 +5,8 @@ import pathlib
 
 from .terminal_table import LEGEND
 
-DESCRIPTION = """Runs track_sequence over every scene folder (BOP format) below the given folders, with several seeds, and scores
-the estimates against the ground truth. Writes summary.csv, summary.json, report.html and plots."""
+DESCRIPTION = """Runs track_sequence over every scene folder (BOP format) and track_bag over every rosbag below the given folders, with
+several seeds, and scores the estimates against the ground truth. Writes summary.csv, summary.json, report.html and plots."""
 EPILOG = "Everything after -- goes to the tracker program, e.g. `-- --stride 3`.\n\n" + LEGEND
 
 
@@ -25,7 +25,7 @@ def parse(arguments):
     parser = argparse.ArgumentParser(prog="evaluate", description=DESCRIPTION, epilog=EPILOG,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", metavar="DIR", nargs="+", type=pathlib.Path,
-                        help="a scene folder, or a folder that holds such at any depth")
+                        help="a scene folder, a rosbag with /ground_truth/pose, or a folder that holds such at any depth")
     parser.add_argument("--output", metavar="DIR", type=pathlib.Path, required=True, help="folder for all results")
     parser.add_argument("--estimates", metavar="DIR", type=pathlib.Path,
                         help="score the estimates that are there (EST.csv, beside it EST.jsonl and EST_occlusion/) instead "
@@ -43,6 +43,8 @@ def parse(arguments):
     parser.add_argument("--models", metavar="DIR", type=pathlib.Path,
                         help="folder of the meshes (BOP: obj_000001.ply; YCBInEOAT: 021_bleach_cleanser/textured_simple.obj; "
                              "default: where the data set keeps them)")
+    parser.add_argument("--object", metavar="FILE", type=pathlib.Path,
+                        help="object YAML, or a mesh in metres, for bags (default: NAME.yaml beside NAME.bag)")
     parser.add_argument("--timeout", metavar="S", type=float, default=900.0, help="longest time of one run [s] (default 900)")
     options = parser.parse_args(own)
     options.passed = passed

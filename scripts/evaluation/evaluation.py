@@ -14,7 +14,8 @@ def choose_scenes(options):
         pattern = re.compile(options.only or "")
     except re.error as error:
         raise EvaluationError(f"--only {options.only} is not a regular expression: {error}") from error
-    scenes = find_scenes(options.folders, options.output / "scenes", options.object_id, options.models, pattern.search)
+    scenes = find_scenes(options.folders, options.output / "scenes", options.object_id, options.models, pattern.search,
+                         options.object)
     if not scenes:
         raise EvaluationError("no scene found: a scene is a folder with scene_camera.json (BOP format), or a video of YCBInEOAT"
                               + (f"; --only {options.only} may leave none" if options.only else ""))
@@ -29,7 +30,12 @@ def choose_program(options, source_folder):
     return programs.find_program(programs.PEERS.get(options.peer, "track_sequence"), source_folder)
 
 
-def job_maker(options, program, num_scenes):
+def bag_program(options, scene, source_folder):
+    """track_bag for a bag, unless the user wants another program: that one gets the scene folder made from it."""
+    return programs.find_program("track_bag", source_folder) if scene.bag and not options.program and not options.peer else None
+
+
+def job_maker(options, program, num_scenes, source_folder):
     """Function (scene, truth) -> jobs."""
     extra = (["--config", str(options.config)] if options.config else []) + options.passed
 
@@ -39,16 +45,18 @@ def job_maker(options, program, num_scenes):
 
     def fresh(scene, truth):
         jobs = []
+        for_bag = bag_program(options, scene, source_folder)
         for seed in range(1, options.seeds + 1):
             csv = options.output / "estimates" / scene.name / f"seed{seed}.csv"
-            command = runs.tracker_command(program, scene, seed, csv, extra, bool(truth.masks), bool(options.peer))
+            command = (runs.bag_command(for_bag, scene, seed, csv, extra) if for_bag else
+                       runs.tracker_command(program, scene, seed, csv, extra, bool(truth.masks), bool(options.peer)))
             jobs.append(runs.Job(scene, f"seed{seed}", csv, command, options.timeout))
         return jobs
 
     return existing if options.estimates else fresh
 
 
-def run_and_print(options, scenes, scorers, program):
+def run_and_print(options, scenes, scorers, program, source_folder):
     """(outcomes by scene name, summaries in order); prints a line for each scene when it is done."""
     width = terminal_table.name_width(scenes)
     progress = Progress()
@@ -63,7 +71,7 @@ def run_and_print(options, scenes, scorers, program):
             progress.update(done, total)
 
     print(terminal_table.header(width), flush=True)
-    outcomes = runs.execute_all(scenes, scorers, job_maker(options, program, len(scenes)), options.jobs, on_done)
+    outcomes = runs.execute_all(scenes, scorers, job_maker(options, program, len(scenes), source_folder), options.jobs, on_done)
     return outcomes, summaries
 
 
@@ -75,7 +83,7 @@ def evaluate(options, source_folder):
         raise EvaluationError(f"there is no configuration {options.config}")
     options.output.mkdir(parents=True, exist_ok=True)
     scorers = {scene.name: runs.SceneScorer(scene) for scene in scenes}
-    outcomes, summaries = run_and_print(options, scenes, scorers, program)
+    outcomes, summaries = run_and_print(options, scenes, scorers, program, source_folder)
     total = aggregate.summarise_all(summaries, outcomes)
     print(terminal_table.overall_line(total, terminal_table.name_width(scenes)), flush=True)
 

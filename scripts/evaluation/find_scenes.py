@@ -3,7 +3,7 @@
 import os
 import pathlib
 
-from . import EvaluationError, bop_data_set, ycbineoat
+from . import EvaluationError, bags, bop_data_set, ycbineoat
 from .scenes import plain_scene
 
 
@@ -35,19 +35,29 @@ def _scenes_in(folder, object_id, models, work_folder):
     return [scene]
 
 
-def find_scenes(folders, work_folder, object_id=None, models=None, wanted=lambda folder: True):
-    """Scenes in order of their folders, each once, with names of their own.
+def _bags_in(root):
+    """The bag itself, or those at any depth below a folder."""
+    return [root] if bags.is_bag(root) else sorted(path for path in root.rglob("*.bag") if path.is_file())
+
+
+def find_scenes(folders, work_folder, object_id=None, models=None, wanted=lambda folder: True, object_file=None):
+    """Scenes in order of their folders, each once, with names of their own; bags come after the folders beside them.
 
     work_folder: for scene folders that are made from other layouts; object_id: None = 1 in a scene with its own mesh, all
-    in a BOP data set; models: folder of the meshes, None = where the data set keeps them; wanted: tells from the path."""
+    in a BOP data set; models: folder of the meshes, None = where the data set keeps them; wanted: tells from the path; object_file:
+    YAML or mesh for bags, None = NAME.yaml beside NAME.bag."""
     scenes, known = [], set()
     for root in folders:
-        if not root.is_dir():
-            raise EvaluationError(f"there is no folder {root}")
+        if not root.is_dir() and not bags.is_bag(root):
+            raise EvaluationError(f"there is no folder or bag {root}")
         for folder in _folders_with(root.resolve(), _is_scene):
             if folder not in known and wanted(str(folder)):
                 known.add(folder)
                 scenes += _scenes_in(folder, object_id, models, work_folder)
+        for path in _bags_in(root.resolve()):
+            if path not in known and wanted(str(path)):
+                known.add(path)
+                scenes.append(bags.scene_of(path, object_file, work_folder))
     _make_names_unique(scenes)
     return scenes
 

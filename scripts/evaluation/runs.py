@@ -52,6 +52,12 @@ def tracker_command(program, scene, seed, csv, options, has_masks, is_peer):
     return command + list(options)
 
 
+def bag_command(program, scene, seed, csv, options):
+    """Command line of track_bag."""
+    return [str(program), str(scene.bag), "--object", str(scene.object_file), "--seed", str(seed), "--num-threads", "1",
+            "--output", str(csv), "--trace", str(csv.with_suffix(".jsonl")), *options]
+
+
 def _run_program(job):
     """Warnings of the program. Raises EvaluationError with the reason when it fails."""
     job.csv.parent.mkdir(parents=True, exist_ok=True)

@@ -25,6 +25,8 @@ class Scene:
     init: pathlib.Path = None  # first pose; None: the first ground truth
     data_set: str = ""  # in BOP's sense
     split: str = "test"
+    bag: pathlib.Path = None  # what the scene folder was made from, where it was
+    object_file: pathlib.Path = None  # of a bag
 
 
 @dataclasses.dataclass

@@ -200,6 +200,7 @@ int DepthLikelihood::tileIndex(const DepthTile& tile, int index) const {
 
 const float* const* DepthLikelihood::meanBeliefs(const DepthTile& tile, int thread) {
   std::vector<const float*>& beliefs = scratch_[static_cast<std::size_t>(thread)].beliefs;
+  beliefs.reserve(tile.touched.capacity());  // grows as seldom as the tile does
   beliefs.assign(tile.touched.size(), nullptr);
   for (std::size_t i = 0; i < beliefs.size(); ++i) {
     if (tile.touched[i] != 0) beliefs[i] = memory_.meanTile(tileIndex(tile, static_cast<int>(i)));
@@ -209,6 +210,7 @@ const float* const* DepthLikelihood::meanBeliefs(const DepthTile& tile, int thre
 
 float* const* DepthLikelihood::ownBeliefs(const DepthTile& tile, int particle, int thread) {
   std::vector<float*>& beliefs = scratch_[static_cast<std::size_t>(thread)].posteriors;
+  beliefs.reserve(tile.touched.capacity());  // grows as seldom as the tile does
   beliefs.assign(tile.touched.size(), nullptr);
   for (std::size_t i = 0; i < beliefs.size(); ++i) {
     if (tile.touched[i] == 0) continue;

@@ -20,8 +20,8 @@ double logSum(double a, double b) {
 
 }  // namespace
 
-InformedProposal::InformedProposal(const ProcessStep& step, const std::vector<LocalMode>& modes) : modes_(modes) {
-  modes_.resize(std::min(modes_.size(), kMaxModes));
+InformedProposal::InformedProposal(const ProcessStep& step, const std::vector<LocalMode>& modes) {
+  for (std::size_t j = 0; j < std::min(modes.size(), kMaxModes); ++j) modes_.push_back(modes[j]);
   for (std::size_t j = 0; j < modes_.size(); ++j) {
     for (int k = 0; k < step.numComponents(); ++k) {
       Component& component = components_[num_components_++];

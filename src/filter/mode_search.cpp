@@ -21,10 +21,8 @@ constexpr double kConvergedStep = 2e-5;  // m, and rad times the object's radius
 constexpr double kFreeDirectionStddevM = 0.7e-3;
 constexpr double kMaxProbeM = 0.02;
 constexpr std::array<double, 4> kProbeOffsets = {-1.0, -0.5, 0.5, 1.0};  // of the reach
-constexpr int kMaxFreeDirections = 3;
 constexpr double kReachSquared = 16.0;       // squared Mahalanobis distance from the prediction
 constexpr double kHypothesisWidthM = 0.012;  // hypotheses are judged and climbed from with this much tolerance
-constexpr std::size_t kClimbedHypotheses = 6;
 constexpr int kMaxExplorations = 2;
 constexpr double kWorthMovingNat = 0.5;
 constexpr double kSameModeM = 2e-3;     // modes nearer than this are one
@@ -33,6 +31,17 @@ constexpr double kCompetingNat = 12.0;  // modes less probable by more than this
 void limitStep(Vector6d& step) {
   const double scale = std::max({1.0, step.head<3>().norm() / kMaxStepM, step.tail<3>().norm() / kMaxStepRad});
   step /= scale;
+}
+
+/// The most probable first; equal ones keep their order. std::stable_sort would ask the heap for memory.
+template <typename Modes>
+void sortByPosterior(Modes& modes) {
+  for (auto mode = modes.begin(); mode != modes.end(); ++mode) {
+    const auto place = std::upper_bound(modes.begin(), mode, *mode, [](const LocalMode& a, const LocalMode& b) {
+      return a.log_posterior > b.log_posterior;
+    });
+    std::rotate(place, mode, mode + 1);
+  }
 }
 
 /// Size of a displacement as the object's surface sees it [m].
@@ -46,15 +55,16 @@ ModeSearch::ModeSearch(PoseLikelihood& likelihood, const ProcessStep& step, doub
                        double object_radius_m)
     : likelihood_(likelihood), step_(step), exponent_(likelihood_exponent), object_radius_m_(object_radius_m) {}
 
-std::vector<LocalMode> ModeSearch::run(const PredictedPose& predicted, const std::vector<ModeSearchStart>& starts,
-                                       const std::vector<Pose>& hypotheses, std::size_t max_modes) {
-  std::vector<ModeSearchStart> climbed = starts;
+void ModeSearch::run(const PredictedPose& predicted, const Starts& starts, const std::vector<Pose>& hypotheses,
+                     std::size_t max_modes, std::vector<LocalMode>& modes) {
+  InlineVector<ModeSearchStart, kMaxStarts + kClimbedHypotheses> climbed;
+  for (const ModeSearchStart& start : starts) climbed.push_back(start);
   for (const Pose& hypothesis : bestOf(hypotheses)) climbed.push_back({hypothesis, kHypothesisWidthM});
-  std::vector<LocalMode> found(climbed.size());
+  InlineVector<LocalMode, kMaxStarts + kClimbedHypotheses> found;
+  found.resize(climbed.size());
   forEach(climbed.size(), [&](std::size_t i, int thread) { found[i] = climb(predicted, climbed[i], thread); });
-  std::stable_sort(found.begin(), found.end(),
-                   [](const LocalMode& a, const LocalMode& b) { return a.log_posterior > b.log_posterior; });
-  std::vector<LocalMode> modes;
+  sortByPosterior(found);
+  modes.clear();
   for (LocalMode& mode : found) {
     if (modes.size() == max_modes) break;
     if (!modes.empty() && mode.log_posterior < modes.front().log_posterior - kCompetingNat) break;
@@ -65,7 +75,6 @@ std::vector<LocalMode> ModeSearch::run(const PredictedPose& predicted, const std
     if (known || !is_in_view || isOutOfReach(mode, predicted)) continue;
     modes.push_back(exploreFreeDirections(predicted, mode));
   }
-  return modes;
 }
 
 template <typename Task>
@@ -154,54 +163,55 @@ LocalMode ModeSearch::exploreFreeDirections(const PredictedPose& predicted, Loca
 }
 
 std::optional<Pose> ModeSearch::probeFreeDirections(const PredictedPose& predicted, LocalMode& mode) const {
-  const std::vector<std::pair<Vector6d, double>> directions = freeDirections(mode);
-  constexpr std::size_t kPerDirection = kProbeOffsets.size();
-  std::vector<Pose> poses(directions.size() * kPerDirection);
-  std::vector<double> values(poses.size());
-  forEach(poses.size(), [&](std::size_t i, int thread) {
-    const auto& [direction, reach] = directions[i / kPerDirection];
-    poses[i] = perturb(mode.pose, kProbeOffsets[i % kPerDirection] * reach * direction);
-    values[i] = temperedLogLikelihood(poses[i], thread);
+  static_assert(kProbes == kProbeOffsets.size());
+  const FreeDirections directions = freeDirections(mode);
+  Probes probes;
+  probes.resize(directions.size() * kProbes);
+  forEach(probes.size(), [&](std::size_t i, int thread) {
+    const FreeDirection& free = directions[i / kProbes];
+    probes[i].pose = perturb(mode.pose, kProbeOffsets[i % kProbes] * free.reach * free.direction);
+    probes[i].value = temperedLogLikelihood(probes[i].pose, thread);
   });
-  const std::optional<Pose> better = betterPose(predicted, mode, poses, values);
-  for (std::size_t k = 0; k < directions.size(); ++k) {
-    takeMeasuredCurvature(directions[k].first, directions[k].second, &values[k * kPerDirection], mode);
-  }
+  const std::optional<Pose> better = betterPose(predicted, mode, probes);
+  for (std::size_t k = 0; k < directions.size(); ++k) takeMeasuredCurvature(directions[k], &probes[k * kProbes], mode);
   return better;
 }
 
 std::optional<Pose> ModeSearch::betterPose(const PredictedPose& predicted, const LocalMode& mode,
-                                           const std::vector<Pose>& poses, const std::vector<double>& values) const {
+                                           const Probes& probes) const {
   std::optional<Pose> better;
   double best = mode.log_posterior + kWorthMovingNat;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const double log_posterior = values[i] + logPrior(poses[i], predicted);
+  for (const Probe& probe : probes) {
+    const double log_posterior = probe.value + logPrior(probe.pose, predicted);
     if (!(log_posterior > best)) continue;
     best = log_posterior;
-    better = poses[i];
+    better = probe.pose;
   }
   return better;
 }
 
-std::vector<std::pair<Vector6d, double>> ModeSearch::freeDirections(const LocalMode& mode) const {
+ModeSearch::FreeDirections ModeSearch::freeDirections(const LocalMode& mode) const {
   Matrix6d information = mode.information;
   information.diagonal() += step_.component(0).variances.cwiseInverse();
   Vector6d scale = Vector6d::Ones();
   scale.tail<3>().setConstant(1.0 / object_radius_m_);  // rotations in metres of surface motion
   const Matrix6d scaled = scale.asDiagonal() * information * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix6d> directions(scaled);
-  std::vector<std::pair<Vector6d, double>> result;
+  FreeDirections result;
   for (int k = 0; k < kMaxFreeDirections; ++k) {  // eigenvalues ascend
     const double stddev = 1.0 / std::sqrt(std::max(directions.eigenvalues()[k], 1e-12));
     if (stddev < kFreeDirectionStddevM) break;
-    result.emplace_back(scale.asDiagonal() * directions.eigenvectors().col(k), std::min(2.0 * stddev, kMaxProbeM));
+    result.push_back({scale.asDiagonal() * directions.eigenvectors().col(k), std::min(2.0 * stddev, kMaxProbeM)});
   }
   return result;
 }
 
-void ModeSearch::takeMeasuredCurvature(const Vector6d& direction, double reach, const double* values, LocalMode& mode) {
+void ModeSearch::takeMeasuredCurvature(const FreeDirection& free, const Probe* probes, LocalMode& mode) {
+  const Vector6d& direction = free.direction;
+  const double reach = free.reach;
   // Least-squares parabola through five points at -h, -h/2, 0, h/2, h: y = y0 + a x + b x^2 with x = offset / h.
   const double centre = mode.log_likelihood;
+  const double values[kProbes] = {probes[0].value, probes[1].value, probes[2].value, probes[3].value};
   const double linear = (-values[0] - 0.5 * values[1] + 0.5 * values[2] + values[3]) / 2.5;
   // Normal equations of [1, x^2]: mean of x^2 is 0.5, sum of squared deviations 0.875.
   const double quadratic = (0.5 * (values[0] + values[3]) - 0.25 * (values[1] + values[2]) - 0.5 * centre) / 0.875;

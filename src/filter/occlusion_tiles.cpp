@@ -14,6 +14,7 @@ constexpr double kSmallestScale = 1e-6;
 // Deviations this small mean nothing; left alone they would become denormal numbers, which are slow.
 constexpr float kSmallestDeviation = 1e-20f;
 constexpr int kKeptMargin = 8;  // cells
+constexpr std::size_t kStockedColumns = 256;
 // Tiles of one place lie anywhere in memory: asking for them this many particles ahead hides most of the waiting.
 constexpr int kPrefetchedParticles = 12;
 
@@ -155,6 +156,15 @@ void OcclusionTiles::resizeGrid(int rows, int cols) {
   for (auto& column : columns_) column.store(nullptr);
   active_.reserve(num_tiles);
   mean_slots_.assign(num_tiles, kNoMean);
+  stockColumns();
+}
+
+/// Particles that try a sudden motion reach dozens of new places in one frame: those must not each ask the heap.
+void OcclusionTiles::stockColumns() {
+  const std::size_t wanted = std::min(columns_.size(), kStockedColumns);
+  column_memory_.reserve(columns_.size());
+  free_columns_.reserve(columns_.size());
+  while (column_memory_.size() < wanted) releaseColumn(newColumnMemory());
 }
 
 void OcclusionTiles::setScale(double scale) {
@@ -202,14 +212,16 @@ std::uint32_t* OcclusionTiles::addColumn(int tile_index) {
 }
 
 std::uint32_t* OcclusionTiles::newColumn() {
-  if (free_columns_.empty()) {
-    column_memory_.push_back(std::make_unique<std::uint32_t[]>(static_cast<std::size_t>(column_size_)));
-    free_columns_.reserve(column_memory_.size());
-    return column_memory_.back().get();
-  }
+  if (free_columns_.empty()) return newColumnMemory();
   std::uint32_t* column = free_columns_.back();
   free_columns_.pop_back();
   return column;
+}
+
+std::uint32_t* OcclusionTiles::newColumnMemory() {
+  column_memory_.push_back(std::make_unique<std::uint32_t[]>(static_cast<std::size_t>(column_size_)));
+  free_columns_.reserve(column_memory_.size());
+  return column_memory_.back().get();
 }
 
 void OcclusionTiles::releaseColumn(std::uint32_t* column) {
@@ -231,6 +243,7 @@ void OcclusionTiles::growColumns(int num_particles) {
     std::copy(place.load(), place.load() + num_particles_, column);
     place.store(column);
   }
+  stockColumns();
 }
 
 void OcclusionTiles::makeOwn(std::uint32_t& handle, int thread) {

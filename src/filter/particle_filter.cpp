@@ -71,7 +71,8 @@ FilterEstimate ParticleFilter::update(PoseLikelihood& likelihood, const ProcessS
 
   predict(step);
   if (config_.proposal == Proposal::kInformed) {
-    drawInformed(step, findModes(likelihood, step, likelihood_exponent, hypotheses));
+    findModes(likelihood, step, likelihood_exponent, hypotheses);
+    drawInformed(step);
   } else {
     drawFromProcess(step);
   }
@@ -127,11 +128,11 @@ void ParticleFilter::resampleIfNeeded(PoseLikelihood& likelihood) {
   const bool every_frame = config_.resampling_threshold >= 1.0;
   if (!every_frame && count == poses_.size() && effectiveSampleSize(weights_) >= enough) return;
   const double offset = random_.uniform(RandomPurpose::kResampling, frame_, 0);
-  const std::vector<int> source = resampleSystematic(weights_, offset, count);
+  resampleSystematic(weights_, offset, count, offspring_, source_);
   poses_.resize(std::max(poses_.size(), count));
   velocities_.resize(poses_.size());
-  for (std::size_t slot = 0; slot < source.size(); ++slot) {
-    const auto from = static_cast<std::size_t>(source[slot]);
+  for (std::size_t slot = 0; slot < source_.size(); ++slot) {
+    const auto from = static_cast<std::size_t>(source_[slot]);
     poses_[slot] = poses_[from];
     velocities_[slot] = velocities_[from];
   }
@@ -139,7 +140,7 @@ void ParticleFilter::resampleIfNeeded(PoseLikelihood& likelihood) {
   velocities_.resize(count);
   predicted_.resize(count);
   log_proposal_ratio_.resize(count);
-  likelihood.resample(source);
+  likelihood.resample(source_);
   weights_.assign(count, 1.0 / static_cast<double>(count));
 }
 
@@ -147,36 +148,37 @@ void ParticleFilter::predict(const ProcessStep& step) {
   for (std::size_t i = 0; i < poses_.size(); ++i) predicted_[i] = step.predict(poses_[i], velocities_[i]);
 }
 
-std::vector<LocalMode> ParticleFilter::findModes(PoseLikelihood& likelihood, const ProcessStep& step, double exponent,
-                                                 const Hypotheses& hypotheses) {
+void ParticleFilter::findModes(PoseLikelihood& likelihood, const ProcessStep& step, double exponent,
+                               const Hypotheses& hypotheses) {
   const PoseStatistics predicted = poseStatistics(predicted_, weights_, last_mean_);
-  std::vector<ModeSearchStart> starts = {{predicted.mean, kNarrowWidthM}, {predicted.mean, kBroadWidthM}};
+  ModeSearch::Starts starts;
+  for (const double width : {kNarrowWidthM, kBroadWidthM}) starts.push_back({predicted.mean, width});
   if ((last_mean_.translation() - predicted.mean.translation()).norm() > 0.5 * kBroadWidthM) {
     starts.push_back({last_mean_, kBroadWidthM});  // the motion may have stopped
   }
 
   // The region of interest: all predictions and starts, and as far as a sudden motion reaches.
-  std::vector<Pose> region = predicted_;
-  for (const ModeSearchStart& start : starts) region.push_back(start.pose);
-  region.insert(region.end(), hypotheses.always.begin(), hypotheses.always.end());
+  region_ = predicted_;
+  for (const ModeSearchStart& start : starts) region_.push_back(start.pose);
+  region_.insert(region_.end(), hypotheses.always.begin(), hypotheses.always.end());
   const double reach = 2.0 * std::sqrt(step.widestComponent().variances.head<3>().maxCoeff());
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-reach, reach}) {
-      region.push_back(predicted.mean);
-      region.back().translation()[axis] += side;
+      region_.push_back(predicted.mean);
+      region_.back().translation()[axis] += side;
     }
   }
-  likelihood.prepare(region);
+  likelihood.prepare(region_);
 
   ModeSearch search(likelihood, step, exponent, object_radius_m_);
   const PredictedPose expected = {predicted.mean, predicted.covariance};
-  std::vector<LocalMode> modes = search.run(expected, starts, hypotheses.always, kMaxModes);
-  const bool is_poor = modes.empty() || !likelihood.explains(modes.front().pose);
-  if (!is_poor || hypotheses.if_poor.empty()) return modes;
-  region.insert(region.end(), hypotheses.if_poor.begin(), hypotheses.if_poor.end());
-  likelihood.prepare(region);
-  for (const LocalMode& mode : modes) starts.push_back({mode.pose, kNarrowWidthM});
-  return search.run(expected, starts, hypotheses.if_poor, kMaxModes);
+  search.run(expected, starts, hypotheses.always, kMaxModes, modes_);
+  const bool is_poor = modes_.empty() || !likelihood.explains(modes_.front().pose);
+  if (!is_poor || hypotheses.if_poor.empty()) return;
+  region_.insert(region_.end(), hypotheses.if_poor.begin(), hypotheses.if_poor.end());
+  likelihood.prepare(region_);
+  for (const LocalMode& mode : modes_) starts.push_back({mode.pose, kNarrowWidthM});
+  search.run(expected, starts, hypotheses.if_poor, kMaxModes, modes_);
 }
 
 Vector6d ParticleFilter::normalDraw(std::size_t particle) const {
@@ -209,8 +211,8 @@ void ParticleFilter::drawFromProcess(const ProcessStep& step) {
   expected_.reset();
 }
 
-void ParticleFilter::drawInformed(const ProcessStep& step, const std::vector<LocalMode>& modes) {
-  const InformedProposal proposal(step, modes);
+void ParticleFilter::drawInformed(const ProcessStep& step) {
+  const InformedProposal proposal(step, modes_);
   if (proposal.empty()) return drawFromProcess(step);
   const double prior_share = config_.prior_share;
   MixtureMoments moments;
@@ -227,7 +229,7 @@ void ParticleFilter::drawInformed(const ProcessStep& step, const std::vector<Loc
     log_proposal_ratio_[i] = -std::log(prior_share + (1.0 - prior_share) * std::exp(log_informed - log_prior));
   }
   data_share_ = proposal.dataShare();
-  expected_ = PoseStatistics{perturb(modes.front().pose, moments.mean()), moments.covariance()};
+  expected_ = PoseStatistics{perturb(modes_.front().pose, moments.mean()), moments.covariance()};
 }
 
 void ParticleFilter::foldSymmetries() {

@@ -36,8 +36,15 @@ double effectiveSampleSize(const std::vector<double>& weights) {
 }
 
 std::vector<int> resampleSystematic(const std::vector<double>& weights, double offset, std::size_t count) {
+  std::vector<int> offspring, source;
+  resampleSystematic(weights, offset, count, offspring, source);
+  return source;
+}
+
+void resampleSystematic(const std::vector<double>& weights, double offset, std::size_t count,
+                        std::vector<int>& offspring, std::vector<int>& source) {
   const std::size_t num_particles = weights.size();
-  std::vector<int> offspring(num_particles, 0);
+  offspring.assign(num_particles, 0);
   double cumulative = 0.0;
   std::size_t drawn = 0;
   for (std::size_t i = 0; i < num_particles; ++i) {
@@ -54,7 +61,7 @@ std::vector<int> resampleSystematic(const std::vector<double>& weights, double o
     drawn = count;
   }
   constexpr int kNobody = -1;
-  std::vector<int> source(num_particles == 0 ? 0 : count, kNobody);
+  source.assign(num_particles == 0 ? 0 : count, kNobody);
   for (std::size_t slot = 0; slot < std::min(source.size(), num_particles); ++slot) {
     if (offspring[slot] == 0) continue;
     source[slot] = static_cast<int>(slot);
@@ -68,7 +75,6 @@ std::vector<int> resampleSystematic(const std::vector<double>& weights, double o
     from = static_cast<int>(parent);
     --offspring[parent];
   }
-  return source;
 }
 
 }  // namespace depth_object_tracker

@@ -4,8 +4,8 @@
 #include "depth_object_tracker/ros/message_conversions.h"
 #include "depth_object_tracker/ros/overlay.h"
 #include "depth_object_tracker/ros/particle_messages.h"
+#include "depth_object_tracker/ros/pose_messages.h"
 
-#include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <std_msgs/UInt64.h>
 #include <boost/make_shared.hpp>
 
@@ -14,11 +14,6 @@ namespace {
 
 bool isFinite(const TrackerResult& result) {
   return isValidPose(result.T_camera_object) && result.covariance.allFinite();
-}
-
-bool hasPoseToTell(const TrackerResult& result) {
-  return result.has_pose && result.state != TrackerState::kLost && result.state != TrackerState::kUninitialized &&
-         isFinite(result);
 }
 
 }  // namespace
@@ -70,22 +65,12 @@ void ResultPublisher::publish(const FrameOutcome& outcome, const BuiltTracker& o
 
 void ResultPublisher::publishPose(const std_msgs::Header& header, const TrackerResult& result,
                                   const std::string& child_frame) {
-  auto pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>();
-  pose->header = header;
-  pose->pose = toPoseMessage(result.T_camera_object, result.covariance);
-  pose_.publish(pose);
-  if (result.twist.allFinite() && result.twist_covariance.allFinite()) {
-    auto twist = boost::make_shared<geometry_msgs::TwistWithCovarianceStamped>();
-    twist->header = header;
-    twist->twist = toTwistMessage(result.twist, result.twist_covariance);
-    twist_.publish(twist);
+  pose_.publish(boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>(toPoseStamped(result, header)));
+  if (hasTwistToTell(result)) {
+    twist_.publish(boost::make_shared<geometry_msgs::TwistWithCovarianceStamped>(toTwistStamped(result, header)));
   }
   if (!publish_tf_ || header.frame_id.empty()) return;
-  geometry_msgs::TransformStamped transform;
-  transform.header = header;
-  transform.child_frame_id = child_frame;
-  transform.transform = toTransformMessage(result.T_camera_object);
-  tf_broadcaster_.sendTransform(transform);
+  tf_broadcaster_.sendTransform(toTransformStamped(result, header, child_frame));
 }
 
 void ResultPublisher::publishHand(const HandReport& hand, const std_msgs::Header& header) {

@@ -28,7 +28,7 @@ void SelfCheck::restart() {
 
 bool SelfCheck::look(const CameraFrame& frame, const DepthImageView& depth, const PinholeCamera& camera,
                      const ObjectTracker* tracker) {
-  const Clock::time_point now = Clock::now();
+  const Clock::time_point now = frame.received_at;
   if (num_looks_ >= kFirstImages && now - last_look_ < kPeriod) return false;
   last_look_ = now;
   ++num_looks_;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/ros/tracker_worker.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <exception>
 #include <utility>
 
@@ -11,6 +15,14 @@ constexpr std::chrono::duration<double> kIdlePeriod{1.0};
 
 double secondsSince(std::chrono::steady_clock::time_point time) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - time).count();
+}
+
+/// Building a tracker takes some 20 MB for a moment, on whatever thread serves the call; glibc would keep them for each
+/// of those threads.
+void returnUnusedMemory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 }  // namespace
@@ -47,6 +59,7 @@ bool TrackerWorker::postTracker(BuiltTracker built) {
   return post([this, built = std::move(built)](TrackerSession& session) {
     session.setTracker(built);
     publisher_.setObject(built);
+    returnUnusedMemory();
   });
 }
 

@@ -104,6 +104,7 @@ class ObjectTracker::Implementation {
         pool(std::make_shared<WorkerPool>(config.filter.num_threads)),
         likelihood(shape, config.pixel, config.occlusion, config.filter.num_particles, pool),
         filter(config.filter, objectRadius(object.mesh, centre_object), aboutCentre(object.symmetries, centre_object)),
+        symmetries(aboutCentre(object.symmetries, centre_object)),
         resolution(config.resolution),
         status(config.status),
         slip(config.slip),
@@ -130,6 +131,7 @@ class ObjectTracker::Implementation {
   std::shared_ptr<WorkerPool> pool;
   DepthLikelihood likelihood;
   ParticleFilter filter;
+  Symmetries symmetries;  // about the centre
   ResolutionChooser resolution;
   StatusMonitor status;
   SlipEstimator slip;
@@ -458,7 +460,6 @@ void ObjectTracker::Implementation::writeEstimate(const FilterEstimate& estimate
   const Eigen::Matrix3d R = estimate.pose.mean.linear();
   const Eigen::Vector3d origin_from_centre = -(R * centre_object);
   Matrix6d covariance = estimate.pose.covariance;
-  const Symmetries symmetries = aboutCentre(object.symmetries, centre_object);
   if (const auto axis = freeAxisInCamera(estimate.pose.mean, symmetries)) {
     covariance.bottomRightCorner<3, 3>() += kFreeAngleVariance * (*axis) * axis->transpose();
   }

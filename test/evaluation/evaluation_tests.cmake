@@ -1,7 +1,7 @@
 # Tests of the command evaluate, one per Python file. They want Debian's python3, which has numpy, scipy and matplotlib.
 set(EVALUATION_PYTHON /usr/bin/python3 CACHE FILEPATH "Python that runs the tests of evaluate")
 set(EVALUATION_TESTS
-  aggregate bop_layout calibration command episodes estimates experiments mesh_points motion_quality occlusion pose_errors poses report
+  aggregate bags bop_layout calibration command comparison episodes estimates experiments mesh_points motion_quality occlusion pose_errors poses report
   states statistics symmetries ycbineoat_layout)
 set(EVALUATION_ENVIRONMENT
   "PYTHONPATH=${PROJECT_SOURCE_DIR}/scripts:${CMAKE_CURRENT_SOURCE_DIR}/evaluation"
@@ -12,6 +12,10 @@ set(EVALUATION_ENVIRONMENT
 if(TARGET track_icp)
   list(APPEND EVALUATION_TESTS peers)
   list(APPEND EVALUATION_ENVIRONMENT "TRACK_ICP=$<TARGET_FILE:track_icp>" "TRACK_PCL=$<TARGET_FILE:track_pcl>")
+endif()
+
+if(TARGET track_bag)
+  list(APPEND EVALUATION_ENVIRONMENT "TRACK_BAG=$<TARGET_FILE:track_bag>")
 endif()
 
 foreach(name IN LISTS EVALUATION_TESTS)

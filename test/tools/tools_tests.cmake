@@ -35,6 +35,14 @@ if(TARGET scene_to_bag)
   target_compile_definitions(scene_to_bag_test PRIVATE SCENE_TO_BAG="$<TARGET_FILE:scene_to_bag>")
   add_dependencies(scene_to_bag_test scene_to_bag)
 
+  add_tracker_test(track_bag_test
+    SOURCES tools/track_bag_test.cpp
+    LIBRARIES small_scene depth_object_tracker_ros GTest::gmock)
+  target_compile_definitions(track_bag_test PRIVATE SCENE_TO_BAG="$<TARGET_FILE:scene_to_bag>"
+    SIMULATE_SCENE="$<TARGET_FILE:simulate_scene>" TRACK_BAG="$<TARGET_FILE:track_bag>"
+    TRACK_SEQUENCE="$<TARGET_FILE:track_sequence>")
+  add_dependencies(track_bag_test scene_to_bag simulate_scene track_bag track_sequence)
+
   add_test(NAME replay_launch_test
     COMMAND ${CATKIN_DEVEL_PREFIX}/env.sh ${CMAKE_CURRENT_SOURCE_DIR}/tools/replay_simulated
       ${PROJECT_SOURCE_DIR}/meshes/drill.obj)

@@ -56,7 +56,7 @@ class InformedProposal {
     double log_determinant_ratio;  // log(|S| / |Q|) / 2
   };
 
-  std::vector<LocalMode> modes_;
+  InlineVector<LocalMode, kMaxModes> modes_;
   std::array<Component, kMaxComponents> components_;
   std::size_t num_components_ = 0;
   Matrix6d data_share_ = Matrix6d::Zero();

@@ -3,11 +3,11 @@
 // free.
 #pragma once
 
+#include "depth_object_tracker/filter/inline_vector.h"
 #include "depth_object_tracker/filter/pose_likelihood.h"
 #include "depth_object_tracker/model/process_model.h"
 
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace depth_object_tracker {
@@ -22,8 +22,8 @@ struct LocalMode {
 };
 
 struct ModeSearchStart {
-  Pose pose;
-  double width_m;  ///< surface noise of the first step; halved from step to step
+  Pose pose = Pose::Identity();
+  double width_m = 0.0;  ///< surface noise of the first step; halved from step to step
 };
 
 /// Prior of the frame that all starts share.
@@ -32,17 +32,36 @@ struct PredictedPose {
   Matrix6d covariance = Matrix6d::Zero();  ///< spread of the particles' predictions, process noise not included
 };
 
+/// Does not ask the heap for memory while there are no hypotheses.
 class ModeSearch {
  public:
+  static constexpr std::size_t kMaxStarts = 5;
+  using Starts = InlineVector<ModeSearchStart, kMaxStarts>;
+
   /// @param object_radius_m makes rotations comparable to translations when directions are ranked.
   ModeSearch(PoseLikelihood& likelihood, const ProcessStep& step, double likelihood_exponent, double object_radius_m);
 
-  /// The best mode first, then others that compete with it (at most `max_modes`). Empty without starts.
   /// @param starts all climbed from. @param hypotheses of which only the most promising are.
-  std::vector<LocalMode> run(const PredictedPose& predicted, const std::vector<ModeSearchStart>& starts,
-                             const std::vector<Pose>& hypotheses, std::size_t max_modes);
+  /// @param[out] modes the best one first, then others that compete with it (at most `max_modes`); empty without
+  /// starts.
+  void run(const PredictedPose& predicted, const Starts& starts, const std::vector<Pose>& hypotheses,
+           std::size_t max_modes, std::vector<LocalMode>& modes);
 
  private:
+  static constexpr int kMaxFreeDirections = 3;
+  static constexpr std::size_t kProbes = 4;  // along each
+  static constexpr std::size_t kClimbedHypotheses = 6;
+  struct FreeDirection {
+    Vector6d direction = Vector6d::Zero();
+    double reach = 0.0;  // how far to probe [units of the direction]
+  };
+  struct Probe {
+    Pose pose = Pose::Identity();
+    double value = 0.0;  // gamma * log L
+  };
+  using FreeDirections = InlineVector<FreeDirection, kMaxFreeDirections>;
+  using Probes = InlineVector<Probe, kMaxFreeDirections * kProbes>;
+
   /// task(index, thread) for every index in [0, count), on the likelihood's threads.
   template <typename Task>
   void forEach(std::size_t count, const Task& task) const;
@@ -52,14 +71,13 @@ class ModeSearch {
   Vector6d newtonStep(const PredictedPose& predicted, const Matrix6d& prior_information, const Linearisation& model,
                       const Pose& pose) const;
   LocalMode exploreFreeDirections(const PredictedPose& predicted, LocalMode mode) const;
-  /// Directions that the posterior leaves widest, and how far to probe along each [units of the direction].
-  std::vector<std::pair<Vector6d, double>> freeDirections(const LocalMode& mode) const;
+  /// Directions that the posterior leaves widest.
+  FreeDirections freeDirections(const LocalMode& mode) const;
   /// Measures slope and curvature along them. @return a pose met on the way that is better than the mode.
   std::optional<Pose> probeFreeDirections(const PredictedPose& predicted, LocalMode& mode) const;
-  std::optional<Pose> betterPose(const PredictedPose& predicted, const LocalMode& mode, const std::vector<Pose>& poses,
-                                 const std::vector<double>& values) const;
-  /// @param values of gamma * log L at kProbeOffsets * reach along `direction` from the mode.
-  static void takeMeasuredCurvature(const Vector6d& direction, double reach, const double* values, LocalMode& mode);
+  std::optional<Pose> betterPose(const PredictedPose& predicted, const LocalMode& mode, const Probes& probes) const;
+  /// @param probes kProbes, at kProbeOffsets * reach along the direction from the mode.
+  static void takeMeasuredCurvature(const FreeDirection& free, const Probe* probes, LocalMode& mode);
   Matrix6d priorInformation(const PredictedPose& predicted) const;
   double logPrior(const Pose& pose, const PredictedPose& predicted) const;
   double temperedLogLikelihood(const Pose& pose, int thread) const;

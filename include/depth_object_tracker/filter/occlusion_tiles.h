@@ -181,6 +181,8 @@ class OcclusionTiles {
   std::uint32_t* column(int tile_index) { return columns_[static_cast<std::size_t>(tile_index)].load(); }
   std::uint32_t* addColumn(int tile_index);
   std::uint32_t* newColumn();
+  std::uint32_t* newColumnMemory();
+  void stockColumns();
   void makeOwn(std::uint32_t& handle, int thread);
   void resizeGrid(int rows, int cols);
   void releaseColumn(std::uint32_t* column);

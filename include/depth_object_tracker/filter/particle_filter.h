@@ -81,10 +81,10 @@ class ParticleFilter {
   void summarise(FilterEstimate& estimate, const ProcessStep& step);
   void resampleIfNeeded(PoseLikelihood& likelihood);
   void predict(const ProcessStep& step);
-  std::vector<LocalMode> findModes(PoseLikelihood& likelihood, const ProcessStep& step, double exponent,
-                                   const Hypotheses& hypotheses);
+  /// Fills modes_.
+  void findModes(PoseLikelihood& likelihood, const ProcessStep& step, double exponent, const Hypotheses& hypotheses);
   void drawFromProcess(const ProcessStep& step);
-  void drawInformed(const ProcessStep& step, const std::vector<LocalMode>& modes);
+  void drawInformed(const ProcessStep& step);
   void foldSymmetries();
   void updateVelocities(const ProcessStep& step);
   void estimateVelocity(FilterEstimate& estimate) const;
@@ -111,6 +111,10 @@ class ParticleFilter {
   std::vector<double> log_likelihoods_;
   std::vector<double> log_weights_;
   std::optional<PoseStatistics> expected_;  // posterior as the local models have it; none without them
+  std::vector<LocalMode> modes_;            // of this frame
+  // Scratch, kept so that a frame allocates nothing.
+  std::vector<Pose> region_;
+  std::vector<int> offspring_, source_;
   Matrix6d data_share_ = Matrix6d::Identity();
   Pose last_mean_ = Pose::Identity();
 };

@@ -19,6 +19,10 @@ double effectiveSampleSize(const std::vector<double>& weights);
 /// @return for every slot the index of the particle that goes there.
 std::vector<int> resampleSystematic(const std::vector<double>& weights, double offset, std::size_t count);
 
+/// The same into `source`, which keeps its memory, as does `offspring` [scratch].
+void resampleSystematic(const std::vector<double>& weights, double offset, std::size_t count,
+                        std::vector<int>& offspring, std::vector<int>& source);
+
 /// As many slots as particles.
 inline std::vector<int> resampleSystematic(const std::vector<double>& weights, double offset) {
   return resampleSystematic(weights, offset, weights.size());

@@ -57,6 +57,7 @@ class DepthTile {
   std::vector<std::uint8_t> touched;
 
  private:
+  void reserve(std::size_t cells, std::size_t tiles);
   static float* plane(AlignedVector<float>& values) { return values.data() + kPad; }
   static const float* plane(const AlignedVector<float>& values) { return values.data() + kPad; }
 
