@@ -65,6 +65,12 @@ constexpr double kBlindBelowVisibleFraction = 0.04;
 // With less of the object in view its pose counts as not seen.
 constexpr double kSeenAboveVisibleFraction = 0.3;
 
+bool fitsWell(const PoseAssessment& assessment) {
+  constexpr double kScore = 0.8;
+  return assessment.visible_pixels > kSeenAboveVisibleFraction * assessment.measured_pixels &&
+         assessment.achieved > kScore * assessment.expected;
+}
+
 Symmetries aboutCentre(Symmetries symmetries, const Eigen::Vector3d& centre_object) {
   for (SymmetryAxis& axis : symmetries.continuous) axis.offset -= centre_object;
   for (Pose& pose : symmetries.discrete) {
@@ -213,13 +219,21 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
   }
 
   if (is_blind && reacquire(depth, time.dt_s)) is_blind = false;
-  if (is_given && mayReacquire()) {
-    const Pose& given = filter.poses().front();
-    around_given = reacquisition.lookAround(depth, camera, given, givenPoseVariances(*initial_variances));
-  }
+  const bool was_given = is_given && initial_variances && mayReacquire();
+  const Vector6d given_variances = initial_variances.value_or(Vector6d::Zero());
+  const Pose given = filter.poses().front();
   is_given = false;
   FilterEstimate estimate = is_blind ? hold(time.dt_s, control) : look(time.dt_s, control);
   PoseAssessment assessment = assess(estimate);
+  if (was_given && !fitsWell(assessment)) {
+    // Perhaps it is farther from the truth than its variances say.
+    filter.initialise(given);
+    likelihood.resetOcclusion();
+    initial_variances = given_variances;
+    around_given = reacquisition.lookAround(depth, camera, given, givenPoseVariances(given_variances));
+    estimate = look(time.dt_s, control);
+    assessment = assess(estimate);
+  }
   if (!is_blind && seesNothing(assessment)) {
     // The update is not to be trusted: what was seen is not the object.
     filter.undo();

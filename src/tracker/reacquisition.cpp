@@ -93,8 +93,21 @@ std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const Pin
   for (const FoundPose& one : found_) {
     if (survivors_.size() < kSurvivors) survivors_.push_back(one.T_camera_centre);
   }
-  if (!is_sure) return std::nullopt;
+  if (!is_sure || !isPatientEnough(found_.front(), region)) return std::nullopt;
   return finder_->settle(likeliestOfTheBest(found_, region), region.T_camera_centre, region.variances).T_camera_centre;
+}
+
+bool Reacquisition::isPatientEnough(const FoundPose& best, const SearchRegion& region) {
+  constexpr double kFarSquared = 6.0;
+  constexpr int kImages = 3;
+  countSameWinner(best.T_camera_centre);
+  return squaredDistance(best.T_camera_centre, region) < kFarSquared || same_winner_ >= kImages;
+}
+
+void Reacquisition::countSameWinner(const Pose& T_camera_centre) {
+  const Vector6d moved = difference(T_camera_centre, winner_);
+  same_winner_ = moved.head<3>().norm() < kSameM && moved.tail<3>().norm() < kSameRad ? same_winner_ + 1 : 0;
+  winner_ = T_camera_centre;
 }
 
 /// With nothing known a wrong pose may be met before the right one: the winner must be better than the others and stay
@@ -110,9 +123,7 @@ std::optional<Pose> Reacquisition::searchAnywhere(const SearchRegion& region) {
   survivors_.clear();
   if (found_.empty()) return std::nullopt;
   const FoundPose& best = found_.front();
-  const Vector6d moved = difference(best.T_camera_centre, winner_);
-  same_winner_ = moved.head<3>().norm() < kSameM && moved.tail<3>().norm() < kSameRad ? same_winner_ + 1 : 0;
-  winner_ = best.T_camera_centre;
+  countSameWinner(best.T_camera_centre);
   double rival = 0.0;
   std::vector<FoundPose> same_place;
   for (const FoundPose& one : found_) {

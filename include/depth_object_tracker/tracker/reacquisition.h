@@ -58,6 +58,9 @@ class Reacquisition {
 
  private:
   bool wasThereBefore(const Pose& T_camera_centre) const;
+  /// Far from where the object should be it must be seen in several images: nearer, it may only have been missed.
+  bool isPatientEnough(const FoundPose& best, const SearchRegion& region);
+  void countSameWinner(const Pose& T_camera_centre);
   std::optional<Pose> searchAnywhere(const SearchRegion& region);
 
   std::unique_ptr<PoseFinder> finder_;
