@@ -19,7 +19,7 @@ double fitQuality(const TileFit& fit) {
 
 double findQuality(const PoseAssessment& assessment) {
   constexpr int kLeastCells = 10;
-  constexpr double kPerContinuedShare = 2.0, kLeastMeasured = 0.5;
+  constexpr double kPerContinuedShare = 1.4, kLeastMeasured = 0.5;
   if (assessment.measured_pixels < kLeastCells || !(assessment.expected > 0.0)) return 0.0;
   // Where most of it has no reading nothing is seen of it, however well the rest fits.
   const double visible = assessment.visible_pixels /

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -139,8 +140,11 @@ std::vector<FoundPose> PoseFinder::searchAround(const std::vector<Pose>& T_camer
   return climbBest(drawBest(effort,
                             [&](std::uint64_t number) {
                               const Pose& middle = T_camera_centre[number % T_camera_centre.size()];
-                              return perturb(middle,
-                                             stddevs.cwiseProduct(random_.normal6(RandomPurpose::kSearch, number, 0)));
+                              // Some near, some far: a thin object must be met more closely than a thick one.
+                              constexpr std::array<double, 3> kScales = {1.0, 0.5, 0.25};
+                              const double scale = kScales[number / T_camera_centre.size() % kScales.size()];
+                              return perturb(middle, scale * stddevs.cwiseProduct(
+                                                                 random_.normal6(RandomPurpose::kSearch, number, 0)));
                             }),
                    effort, false);
 }
