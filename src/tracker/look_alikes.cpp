@@ -197,18 +197,18 @@ LookAlikes findLookAlikes(const TriangleMesh& mesh, const Eigen::Vector3d& centr
 void LookAlikeCheck::rankCandidates(DepthLikelihood& likelihood, const Pose& T_camera_centre) {
   constexpr std::size_t kPerImage = 8;
   const std::size_t count = std::min(kPerImage, look_alikes_.far.size());
-  std::vector<Pose> poses;
+  poses_.clear();
   for (std::size_t i = 0; i < count; ++i) {
-    poses.push_back(T_camera_centre * look_alikes_.far[(next_ + i) % look_alikes_.far.size()]);
+    poses_.push_back(T_camera_centre * look_alikes_.far[(next_ + i) % look_alikes_.far.size()]);
   }
   next_ = (next_ + count) % look_alikes_.far.size();
-  if (pending_) poses.push_back(T_camera_centre * pending_->T_centre_centre);
-  likelihood.prepare(poses);
-  if (pending_) poses.pop_back();
+  if (pending_) poses_.push_back(T_camera_centre * pending_->T_centre_centre);
+  likelihood.prepare(poses_);
+  if (pending_) poses_.pop_back();
   candidates_.clear();
-  for (const Pose& pose : poses) candidates_.push_back({likelihood.broadLogLikelihood(pose, kBroadM, 0), pose});
-  std::stable_sort(candidates_.begin(), candidates_.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.broad > b.broad; });
+  for (const Pose& pose : poses_) candidates_.push_back({likelihood.broadLogLikelihood(pose, kBroadM, 0), pose});
+  std::sort(candidates_.begin(), candidates_.end(),
+            [](const Candidate& a, const Candidate& b) { return a.broad > b.broad; });
 }
 
 std::optional<Pose> LookAlikeCheck::findBetter(DepthLikelihood& likelihood, const Pose& T_camera_centre,
@@ -243,14 +243,14 @@ std::optional<Pose> LookAlikeCheck::findBetter(DepthLikelihood& likelihood, cons
 }
 
 std::optional<Pose> LookAlikeCheck::findNearby(DepthLikelihood& likelihood, const Pose& T_camera_centre,
-                                               double exponent) const {
+                                               double exponent) {
   constexpr ClimbSchedule kClimbNear = {0.004, 0.002, 5};
   const Pose* best = nullptr;
-  std::vector<Pose> poses;
-  for (const Pose& T : look_alikes_.near) poses.push_back(T_camera_centre * T);
+  poses_.clear();
+  for (const Pose& T : look_alikes_.near) poses_.push_back(T_camera_centre * T);
   const double now = likelihood.logLikelihood(T_camera_centre, 0);
   double highest = now - kPromisingNat / exponent;
-  for (const Pose& pose : poses) {
+  for (const Pose& pose : poses_) {
     const double value = likelihood.logLikelihood(pose, 0);
     if (!(value > highest)) continue;
     highest = value;

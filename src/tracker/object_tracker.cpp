@@ -143,6 +143,7 @@ class ObjectTracker::Implementation {
   SlipEstimator slip;
   CovarianceCalibration calibration;
   PoseSearch search;
+  Hypotheses hypotheses;  // of this image
   LookAlikeCheck look_alikes;
   Reacquisition reacquisition;
   double unseen_s = 0.0;       // since the object was last seen well
@@ -175,7 +176,7 @@ class ObjectTracker::Implementation {
   /// The covariance as the image bears it out.
   void calibrate(FilterEstimate& estimate, double dt_s);
   /// The process into this image, and poses to look at besides: at the start, while little is seen, after a loss.
-  ProcessStep makeStep(double dt_s, const std::optional<ControlInput>& control, Hypotheses& hypotheses);
+  ProcessStep makeStep(double dt_s, const std::optional<ControlInput>& control);
   /// One frame of the filter.
   FilterEstimate look(double dt_s, const std::optional<ControlInput>& control);
   /// One frame without a measurement.
@@ -260,8 +261,7 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
 }
 
 FilterEstimate ObjectTracker::Implementation::look(double dt_s, const std::optional<ControlInput>& control) {
-  Hypotheses hypotheses;
-  const ProcessStep step = makeStep(dt_s, control, hypotheses);
+  const ProcessStep step = makeStep(dt_s, control);
   step_in_use = step;
   const double exponent = likelihoodExponent(config.filter, likelihood.image().grid().factor);
   return filter.update(likelihood, step, exponent, hypotheses);
@@ -333,11 +333,12 @@ FrameClock::Step ObjectTracker::Implementation::advanceClock(double stamp_s) {
   return time;
 }
 
-ProcessStep ObjectTracker::Implementation::makeStep(double dt_s, const std::optional<ControlInput>& control,
-                                                    Hypotheses& hypotheses) {
+ProcessStep ObjectTracker::Implementation::makeStep(double dt_s, const std::optional<ControlInput>& control) {
+  hypotheses.always.clear();
+  hypotheses.if_poor.clear();
   if (initial_variances) {
     const ProcessStep step(config.process, *initial_variances);
-    if (mayReacquire()) hypotheses.always = search.around(filter.poses().front(), *initial_variances, kHypotheses);
+    if (mayReacquire()) search.around(filter.poses().front(), *initial_variances, kHypotheses, hypotheses.always);
     hypotheses.always.insert(hypotheses.always.end(), around_given.begin(), around_given.end());
     around_given.clear();
     initial_variances.reset();
@@ -346,7 +347,7 @@ ProcessStep ObjectTracker::Implementation::makeStep(double dt_s, const std::opti
   ProcessStep step(config.process, dt_s, control, centre_object, diffusionScale(), slip.noiseScale());
   followHand(step, control && control->isFollowed(), dt_s);
   if (mayReacquire()) {
-    hypotheses.if_poor = search.around(last_mean.mean, searchVariances(kPoorFitReachS), kHypotheses);
+    search.around(last_mean.mean, searchVariances(kPoorFitReachS), kHypotheses, hypotheses.if_poor);
   }
   return step;
 }

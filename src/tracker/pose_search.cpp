@@ -5,9 +5,9 @@
 #include <cmath>
 
 namespace depth_object_tracker {
-std::vector<Pose> PoseSearch::around(const Pose& T_camera_centre, const Vector6d& variances, int count) {
+void PoseSearch::around(const Pose& T_camera_centre, const Vector6d& variances, int count, std::vector<Pose>& poses) {
   ++call_;
-  std::vector<Pose> poses;
+  poses.clear();
   for (int i = 0; i < count; ++i) {
     Vector6d displacement = Vector6d::Zero();
     if (i > 0) {
@@ -16,7 +16,6 @@ std::vector<Pose> PoseSearch::around(const Pose& T_camera_centre, const Vector6d
     }
     poses.push_back(perturb(T_camera_centre, displacement));
   }
-  return poses;
 }
 
 Vector6d searchVariances(double hidden_s) {

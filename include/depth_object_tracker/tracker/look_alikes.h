@@ -50,12 +50,13 @@ class LookAlikeCheck {
 
   /// The next few look-alikes, the most promising first.
   void rankCandidates(DepthLikelihood& likelihood, const Pose& T_camera_centre);
-  std::optional<Pose> findNearby(DepthLikelihood& likelihood, const Pose& T_camera_centre, double exponent) const;
+  std::optional<Pose> findNearby(DepthLikelihood& likelihood, const Pose& T_camera_centre, double exponent);
   std::optional<Pose> followPending(DepthLikelihood& likelihood, const Pose& T_camera_centre,
                                     const std::function<double(const Pose&)>& evidence, double dt_s);
 
   LookAlikes look_alikes_;
   std::vector<Candidate> candidates_;  // of this image
+  std::vector<Pose> poses_;            // scratch
   std::optional<Pending> pending_;
   std::size_t next_ = 0;
 };

@@ -14,8 +14,8 @@ class PoseSearch {
  public:
   explicit PoseSearch(std::uint64_t seed) : random_(seed) {}
 
-  /// Poses drawn from N(mean, variances), the mean itself among them.
-  std::vector<Pose> around(const Pose& T_camera_centre, const Vector6d& variances, int count);
+  /// Poses drawn from N(mean, variances), the mean itself among them. @param[out] poses reuses its memory.
+  void around(const Pose& T_camera_centre, const Vector6d& variances, int count, std::vector<Pose>& poses);
 
  private:
   RandomSource random_;
