@@ -90,6 +90,12 @@ Linearisation unpacked(const LinearisationSums& sums) {
 
 }  // namespace
 
+double PoseAssessment::visibleShare() const {
+  constexpr double kUsuallyMeasured = 0.5;  // dark and steep surfaces have fewer readings
+  const double of = std::max<double>(measured_pixels, kUsuallyMeasured * covered_pixels);
+  return of > 0.0 ? std::min(1.0, visible_pixels / of) : 0.0;
+}
+
 ObjectShape::ObjectShape(const TriangleMesh& mesh, const Eigen::Vector3d& centre, bool level_of_detail)
     : levels(std::make_shared<RenderLevels>(mesh, level_of_detail ? kCoarsestLevelErrorM : 0.0)),
       centre_object(centre),
@@ -321,7 +327,7 @@ bool DepthLikelihood::explains(const Pose& T_camera_centre) {
   constexpr double kOfWhatIsExpected = 0.85, kLeastVisible = 0.2;
   const PoseAssessment fit = assess(T_camera_centre, 0);
   // An edge of what hides the object can pass for the little that is seen of it.
-  if (fit.visible_pixels < kLeastVisible * fit.measured_pixels) return true;
+  if (fit.visibleShare() < kLeastVisible) return true;
   return fit.achieved > kOfWhatIsExpected * fit.expected;
 }
 

@@ -164,6 +164,7 @@ void OcclusionTiles::stockColumns() {
   const std::size_t wanted = std::min(columns_.size(), kStockedColumns);
   column_memory_.reserve(columns_.size());
   free_columns_.reserve(columns_.size());
+  mean_.reserve(wanted);
   while (column_memory_.size() < wanted) releaseColumn(newColumnMemory());
 }
 

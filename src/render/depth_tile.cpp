@@ -35,12 +35,12 @@ void DepthTile::clear(const CellBox& box, const CellBox& image) {
   stride = tile_cols * kTileSize + 2 * kPad;
   const auto cells = static_cast<std::size_t>(tile_rows * kTileSize * stride);
   const auto tiles = static_cast<std::size_t>(tile_rows * tile_cols);
-  if (depth_.size() < cells + kPad || touched.capacity() < tiles) reserve(2 * (cells + kPad), 2 * tiles);
+  if (depth_.size() < cells + kPad || touched.capacity() < tiles) reserve(4 * (cells + kPad), 4 * tiles);
   std::fill_n(depth_.begin(), cells + kPad, std::numeric_limits<float>::infinity());
   touched.assign(tiles, 0);
 }
 
-/// Twice what is needed now: an object that comes a little nearer shall not make a frame ask the heap.
+/// Four times what is needed now: an object that comes a little nearer shall not make a frame ask the heap.
 void DepthTile::reserve(std::size_t cells, std::size_t tiles) {
   for (auto* values : {&depth_, &soft_depth_, &coverage_, &distance_, &dilated_, &eroded_}) values->resize(cells);
   face_.resize(cells);

@@ -10,7 +10,7 @@ namespace {
 constexpr double kPoorScore = 0.85, kMediocreScore = 0.92;
 constexpr double kPlainSight = 0.6;
 constexpr double kPoorScoreOfLittle = 0.7, kPoorForS = 0.3;  // little that is seen often fits a little worse
-constexpr double kLookAroundForS = 1.0;                      // at every image; in vain: from time to time
+constexpr double kLookAroundForS = 2.0;                      // at every image; in vain: from time to time
 constexpr double kShortestIntervalS = 0.3, kLongestIntervalS = 8.0;
 
 }  // namespace
@@ -26,11 +26,13 @@ void Doubt::update(double score, double visible_fraction, bool is_seen, double d
 }
 
 Doubt::Look Doubt::look() const {
-  if (is_mediocre_ && since_look_s_ > interval_s_) return Look::kEverywhere;
-  return is_poor_ && poor_s_ < kLookAroundForS ? Look::kAround : Look::kNowhere;
+  const bool is_due = since_look_s_ > interval_s_;
+  if (is_mediocre_ && is_due) return Look::kEverywhere;
+  return is_poor_ && (is_due || poor_s_ < kLookAroundForS) ? Look::kAround : Look::kNowhere;
 }
 
-void Doubt::lookedEverywhere() {
+void Doubt::looked(Look look) {
+  if (look == Look::kNowhere || (look == Look::kAround && poor_s_ < kLookAroundForS)) return;
   since_look_s_ = 0.0;
   interval_s_ = std::min(kLongestIntervalS, 2.0 * interval_s_);
 }

@@ -67,8 +67,7 @@ constexpr double kSeenAboveVisibleFraction = 0.3;
 
 bool fitsWell(const PoseAssessment& assessment) {
   constexpr double kScore = 0.8;
-  return assessment.visible_pixels > kSeenAboveVisibleFraction * assessment.measured_pixels &&
-         assessment.achieved > kScore * assessment.expected;
+  return assessment.visibleShare() > kSeenAboveVisibleFraction && assessment.achieved > kScore * assessment.expected;
 }
 
 Symmetries aboutCentre(Symmetries symmetries, const Eigen::Vector3d& centre_object) {
@@ -282,7 +281,7 @@ PoseAssessment ObjectTracker::Implementation::assess(const FilterEstimate& estim
 bool ObjectTracker::Implementation::seesNothing(const PoseAssessment& assessment) const {
   const bool was_seen = status.state() == TrackerState::kTracking || status.state() == TrackerState::kOccluded;
   return mayReacquire() && was_seen && assessment.measured_pixels > 0 &&
-         assessment.visible_pixels < kBlindBelowVisibleFraction * assessment.measured_pixels;
+         assessment.visibleShare() < kBlindBelowVisibleFraction;
 }
 
 bool ObjectTracker::Implementation::checkInput(const DepthImageView& depth, const PinholeCamera& camera,
@@ -386,13 +385,13 @@ bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth
   others.variances = just_found ? anyTurnVariances() : searchVariances(std::min(doubt.poorSince(), kDoubtfulReachS));
   const std::optional<Pose> better = reacquisition.findBetter(depth, camera_in_use, T_camera_centre, others);
   if (better) startAt(*better);
-  if (others.everywhere) doubt.lookedEverywhere();
+  doubt.looked(look);
   return better.has_value();
 }
 
 void ObjectTracker::Implementation::turnToLookAlike(FilterEstimate& estimate, PoseAssessment& assessment, double dt_s) {
   if (!mayReacquire() || is_blind || initial_variances) return;
-  if (assessment.visible_pixels < kSeenAboveVisibleFraction * assessment.measured_pixels) return;
+  if (assessment.visibleShare() < kSeenAboveVisibleFraction) return;
   const double exponent = likelihoodExponent(config.filter, likelihood.image().grid().factor);
   const std::optional<Pose> better =
       look_alikes.findBetter(likelihood, estimate.pose.mean, exponent, moved_s > kSettledAfterS, dt_s);

@@ -19,11 +19,9 @@ double fitQuality(const TileFit& fit) {
 
 double findQuality(const PoseAssessment& assessment) {
   constexpr int kLeastCells = 10;
-  constexpr double kPerContinuedShare = 1.4, kLeastMeasured = 0.5;
+  constexpr double kPerContinuedShare = 1.4;
   if (assessment.measured_pixels < kLeastCells || !(assessment.expected > 0.0)) return 0.0;
-  // Where most of it has no reading nothing is seen of it, however well the rest fits.
-  const double visible = assessment.visible_pixels /
-                         std::max<double>(assessment.measured_pixels, kLeastMeasured * assessment.covered_pixels);
+  const double visible = assessment.visibleShare();
   const double score = std::min(1.0, assessment.achieved / assessment.expected);
   const double continued =
       static_cast<double>(assessment.continued_pixels) / std::max(1, assessment.surrounding_pixels);

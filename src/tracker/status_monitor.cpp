@@ -20,6 +20,8 @@ double scoreOfAFind(const PoseAssessment& assessment) {
   return kLeast + kPerContinuedShare * continued;
 }
 
+constexpr double kLittleVisible = 0.3, kPoorScoreOfLittle = 0.7;
+
 }  // namespace
 
 void StatusMonitor::restart() {
@@ -31,9 +33,7 @@ void StatusMonitor::restart() {
 }
 
 void StatusMonitor::update(const PoseAssessment& assessment, double dt_s, bool is_blind) {
-  visible_fraction_ = assessment.measured_pixels > 0
-                          ? std::clamp(assessment.visible_pixels / assessment.measured_pixels, 0.0, 1.0)
-                          : 0.0;
+  visible_fraction_ = assessment.visibleShare();
   score_ = assessment.expected > 0.0 ? std::clamp(assessment.achieved / assessment.expected, 0.0, 1.5) : 0.0;
   classify(assessment, dt_s, is_blind);
 }
@@ -48,7 +48,9 @@ void StatusMonitor::classify(const PoseAssessment& assessment, double dt_s, bool
   const bool hidden = !outside && !unmeasured && visible_fraction_ < config_.occluded_below_visible_fraction;
   // What is in front of the object does not contradict the pose; what is seen through it does.
   const bool seen_through = !unmeasured && assessment.through_pixels > kSeenThroughShare * assessment.measured_pixels;
-  const bool misfit = outside || (seen_through && score_ < config_.lost_below_score);
+  // What little is left to be seen may fit something else by chance.
+  const bool by_chance = visible_fraction_ < kLittleVisible && score_ < kPoorScoreOfLittle;
+  const bool misfit = outside || (seen_through && (score_ < config_.lost_below_score || by_chance));
   misfit_s_ = misfit ? misfit_s_ + dt_s : 0.0;
   if (misfit_s_ > config_.lost_after_s) {
     if (state_ != TrackerState::kLost) found_s_ = 0.0;

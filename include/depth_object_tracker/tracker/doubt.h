@@ -18,8 +18,8 @@ class Doubt {
 
   /// What the next image asks for.
   Look look() const;
-  /// Tells that the whole image was looked at, in vain.
-  void lookedEverywhere();
+  /// Tells that the image was looked at, in vain.
+  void looked(Look look);
   /// What is seen fits worse than the sensor model expects: perhaps a neighbouring mode.
   bool isPoor() const { return is_poor_; }
   /// Since the fit was good [s].
