@@ -14,7 +14,7 @@ constexpr double kSmallestScale = 1e-6;
 // Deviations this small mean nothing; left alone they would become denormal numbers, which are slow.
 constexpr float kSmallestDeviation = 1e-20f;
 constexpr int kKeptMargin = 8;  // cells
-constexpr std::size_t kStockedColumns = 256;
+constexpr std::size_t kStockedColumns = 512;
 // Tiles of one place lie anywhere in memory: asking for them this many particles ahead hides most of the waiting.
 constexpr int kPrefetchedParticles = 12;
 
