@@ -20,7 +20,7 @@ double scoreOfAFind(const PoseAssessment& assessment) {
   return kLeast + kPerContinuedShare * continued;
 }
 
-constexpr double kLittleVisible = 0.3, kPoorScoreOfLittle = 0.7;
+constexpr double kLittleVisible = 0.3, kMoreOfLittle = 2.8;
 
 }  // namespace
 
@@ -49,7 +49,7 @@ void StatusMonitor::classify(const PoseAssessment& assessment, double dt_s, bool
   // What is in front of the object does not contradict the pose; what is seen through it does.
   const bool seen_through = !unmeasured && assessment.through_pixels > kSeenThroughShare * assessment.measured_pixels;
   // What little is left to be seen may fit something else by chance.
-  const bool by_chance = visible_fraction_ < kLittleVisible && score_ < kPoorScoreOfLittle;
+  const bool by_chance = visible_fraction_ < kLittleVisible && score_ < kMoreOfLittle * config_.lost_below_score;
   const bool misfit = outside || (seen_through && (score_ < config_.lost_below_score || by_chance));
   misfit_s_ = misfit ? misfit_s_ + dt_s : 0.0;
   if (misfit_s_ > config_.lost_after_s) {
