@@ -62,6 +62,7 @@ add_library(depth_object_tracker_core SHARED
   src/tracker/other_objects.cpp
   src/tracker/parameter_binding.cpp
   src/tracker/plane_finder.cpp
+  src/tracker/pair_votes.cpp
   src/tracker/point_pairs.cpp
   src/tracker/pose_evidence.cpp
   src/tracker/pose_finder.cpp

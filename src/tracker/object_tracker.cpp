@@ -153,6 +153,7 @@ class ObjectTracker::Implementation {
   double moved_s = kLongAgoS;  // since the filter was started anew, at a pose that was searched
   double reacquired_s = kLongAgoS;  // since the object was found again
   Doubt doubt;
+  double since_learnt_s = kLongAgoS;       // how well the object fits where it is seen
   double initialising_s = 0.0;             // since an initial pose that does not fit yet
   std::optional<ProcessStep> step_in_use;  // of the last image that was looked at
   bool follows_hand = false;
@@ -196,6 +197,8 @@ class ObjectTracker::Implementation {
   void followHand(const ProcessStep& step, bool follows, double dt_s);
   void estimateSlip(const FilterEstimate& estimate, double dt_s);
   void rememberFit(const FilterEstimate& estimate, double dt_s);
+  /// From time to time, where the object is surely seen.
+  void learnFit(const DepthImageView& depth, double dt_s);
   void writeEstimate(const FilterEstimate& estimate);
   void writeStatus(const PoseAssessment& assessment);
 };
@@ -255,6 +258,7 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
   writeStatus(assessment);
   estimateSlip(estimate, time.dt_s);
   rememberFit(estimate, time.dt_s);
+  learnFit(depth, time.dt_s);
   result.time.total_s = stopwatch.lap();
   return result;
 }
@@ -359,7 +363,7 @@ bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, doubl
   region.on_table = is_on_table;
   // As long as something in front explains why nothing is seen, the object is most likely still behind it.
   region.everywhere = status.state() == TrackerState::kLost || status.state() == TrackerState::kInitializing ||
-                      unseen_s > kSearchEverywhereAfterS;
+                      status.misfit() || unseen_s > kSearchEverywhereAfterS;
   region.occluders = known_occluders;
   const std::optional<Pose> found = reacquisition.search(depth, camera_in_use, region);
   if (!found) return false;
@@ -447,12 +451,20 @@ void ObjectTracker::Implementation::rememberFit(const FilterEstimate& estimate, 
   // A pose that had to be searched is not one that was followed.
   moved_s = status.state() == TrackerState::kInitializing ? 0.0 : moved_s + dt_s;
   last_mean = estimate.pose;
-  doubt.update(status.score(), status.visibleFraction(), seen, dt_s);
+  doubt.update(status.score() / reacquisition.usualScore(), status.visibleFraction(), seen, dt_s);
   initialising_s = status.state() == TrackerState::kInitializing ? initialising_s + dt_s : 0.0;
   const bool may_be_blind =
       mayReacquire() && (status.state() != TrackerState::kInitializing || initialising_s > kFitsWithinS);
   const bool nothing_seen = status.visibleFraction() < kBlindBelowVisibleFraction || status.misfit();
   is_blind = is_anywhere || (may_be_blind && (is_blind || nothing_seen || status.state() == TrackerState::kLost));
+}
+
+void ObjectTracker::Implementation::learnFit(const DepthImageView& depth, double dt_s) {
+  constexpr double kEveryS = 0.5, kSureAfterS = 1.0;
+  since_learnt_s += dt_s;
+  if (!mayReacquire() || unseen_s > 0.0 || moved_s < kSureAfterS || since_learnt_s < kEveryS) return;
+  since_learnt_s = 0.0;
+  reacquisition.learn(depth, camera_in_use, last_mean.mean);
 }
 
 void ObjectTracker::Implementation::calibrate(FilterEstimate& estimate, double dt_s) {

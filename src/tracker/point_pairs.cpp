@@ -54,10 +54,17 @@ PointPairs::PointPairs(const std::vector<OrientedPoint>& points, double diameter
       if (i == j || feature.distance_m < least_m_) continue;
       constexpr double kSeenTogether = 0.9 * M_PI;  // of normals: otherwise no camera sees both
       if (feature.normals_rad > kSeenTogether || !pairAxes(points_[i], points_[j], least_m_)) continue;
-      entries_.push_back({cellOf(feature, kMiddle), static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j)});
+      entries_.push_back({cellOf(feature, kMiddle), static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j),
+                          static_cast<float>(turnAbout(axesOf(points_[i]), points_[i], points_[j]))});
     }
   }
   std::stable_sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.cell < b.cell; });
+  const std::uint32_t cells = entries_.empty() ? 0 : entries_.back().cell + 1;
+  std::uint32_t entry = 0;
+  for (std::uint32_t cell = 0; cell <= cells; ++cell) {
+    while (entry < entries_.size() && entries_[entry].cell < cell) ++entry;
+    start_.push_back(entry);
+  }
 }
 
 std::uint32_t PointPairs::cellOf(const PairFeature& feature, const std::array<double, 4>& jitter) const {
@@ -74,16 +81,11 @@ std::uint32_t PointPairs::cellOf(const PairFeature& feature, const std::array<do
 
 std::optional<Pose> PointPairs::layOn(const OrientedPoint& first, const OrientedPoint& second,
                                       const std::array<double, 4>& jitter, double choice) const {
-  const PairFeature feature = pairFeature(first, second);
-  if (feature.distance_m < least_m_ || feature.distance_m > most_m_) return std::nullopt;
   const auto axes_camera = pairAxes(first, second, least_m_);
   if (!axes_camera) return std::nullopt;
-  const Entry wanted{cellOf(feature, jitter), 0, 0};
-  const auto alike = std::equal_range(entries_.begin(), entries_.end(), wanted,
-                                      [](const Entry& a, const Entry& b) { return a.cell < b.cell; });
-  const auto count = static_cast<double>(alike.second - alike.first);
-  if (count < 1.0) return std::nullopt;
-  const Entry& entry = *(alike.first + static_cast<std::ptrdiff_t>(choice * count));
+  const auto [begin, end] = alike(first, second, jitter);
+  if (begin == end) return std::nullopt;
+  const Entry& entry = *(begin + static_cast<std::ptrdiff_t>(choice * static_cast<double>(end - begin)));
   const OrientedPoint& own = points_[entry.first];
   const auto axes_object = pairAxes(own, points_[entry.second], least_m_);
   Pose pose = Pose::Identity();
@@ -92,6 +94,28 @@ std::optional<Pose> PointPairs::layOn(const OrientedPoint& first, const Oriented
   const Eigen::Vector3d middle_object = 0.5 * (own.point + points_[entry.second].point);
   pose.translation() = 0.5 * (first.point + second.point) - pose.linear() * middle_object;
   return pose;
+}
+
+std::pair<const PointPairs::Entry*, const PointPairs::Entry*> PointPairs::alike(
+    const OrientedPoint& first, const OrientedPoint& second, const std::array<double, 4>& jitter) const {
+  const PairFeature feature = pairFeature(first, second);
+  if (feature.distance_m < least_m_ || feature.distance_m > most_m_) return {nullptr, nullptr};
+  const std::uint32_t cell = cellOf(feature, jitter);
+  if (cell + 1 >= start_.size()) return {nullptr, nullptr};
+  return {entries_.data() + start_[cell], entries_.data() + start_[cell + 1]};
+}
+
+Eigen::Matrix3d axesOf(const OrientedPoint& point) {
+  Eigen::Matrix3d axes;
+  axes.col(0) = point.normal;
+  axes.col(1) = point.normal.unitOrthogonal();
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  return axes;
+}
+
+double turnAbout(const Eigen::Matrix3d& axes, const OrientedPoint& point, const OrientedPoint& other) {
+  const Eigen::Vector3d line = other.point - point.point;
+  return std::atan2(line.dot(axes.col(2)), line.dot(axes.col(1)));
 }
 
 }  // namespace depth_object_tracker

@@ -37,4 +37,20 @@ double findEvidence(const PoseAssessment& assessment) {
          std::max(0.0, assessment.log_likelihood);
 }
 
+double findLogOdds(const PoseAssessment& assessment, double usual_score) {
+  // Logistic regression on 30,000 poses found in images of 80 simulated scenes of 11 objects, some of them while the
+  // object is hidden, and on a real mug, whose score varies more from view to view.
+  constexpr double kConstant = -17.5, kPerLogScore = 25.5, kPerContinuedShare = -11.4, kPerLogEvidence = 2.63;
+  constexpr double kLeastLogScore = -0.35;
+  constexpr double kUsualCells = 800.0;  // something large near the camera explains much of the image, but no better
+  if (!(assessment.expected > 0.0)) return -std::numeric_limits<double>::infinity();
+  const double score = assessment.achieved / assessment.expected / usual_score;
+  const double continued =
+      static_cast<double>(assessment.continued_pixels) / std::max(1, assessment.surrounding_pixels);
+  const double evidence =
+      assessment.log_likelihood * std::min(1.0, kUsualCells / std::max(1, assessment.covered_pixels));
+  return kConstant + kPerLogScore * std::clamp(std::log(std::max(score, 1e-3)), kLeastLogScore, 0.0) +
+         kPerContinuedShare * continued + kPerLogEvidence * std::log(std::max(1.0, evidence));
+}
+
 }  // namespace depth_object_tracker

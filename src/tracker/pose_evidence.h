@@ -14,4 +14,9 @@ double fitQuality(const TileFit& fit);
 /// but beside its outline: an arm that is taken for a can gives itself away.
 double findEvidence(const PoseAssessment& assessment);
 
+/// Log odds [nat] that a pose which a search ended at is the object's and not one where something else fits by chance,
+/// if both were as frequent. @param usual_score that the object has where it is surely seen: what fits worse than it
+/// usually does is something else, and a mesh that fits badly fits badly everywhere.
+double findLogOdds(const PoseAssessment& assessment, double usual_score);
+
 }  // namespace depth_object_tracker

@@ -58,6 +58,7 @@ PoseFinder::PoseFinder(const ObjectShape& shape, const TriangleMesh& mesh, doubl
       pool_(std::move(pool)),
       object_points_(objectPoints(mesh, shape.centre_object)),
       pairs_(object_points_, diameter_m),
+      votes_(static_cast<std::size_t>(pool_->numThreads()), PairVotes(pairs_)),
       sparse_(object_points_, diameter_m),
       table_draws_(mesh, shape.centre_object, object_points_, seed),
       coarse_(shape, config, OcclusionChainConfig(), 1, pool_),
@@ -116,7 +117,10 @@ std::vector<FoundPose> PoseFinder::searchEverywhere(const SearchEffort& effort) 
   image_points_.erase(std::remove_if(image_points_.begin(), image_points_.end(), in_background), image_points_.end());
   if (image_points_.empty() || object_points_.empty()) return {};
   listNeighbours();
-  return climbBest(drawBest(effort, [this](std::uint64_t number) { return drawAnywhere(number); }), effort, true);
+  std::vector<Pose> poses = drawVotes(effort.references);
+  const std::vector<Pose> drawn = drawBest(effort, [this](std::uint64_t number) { return drawAnywhere(number); });
+  poses.insert(poses.end(), drawn.begin(), drawn.end());
+  return climbBest(poses, effort, true);
 }
 
 std::vector<FoundPose> PoseFinder::searchOnTable(const SearchEffort& effort) {
@@ -197,21 +201,64 @@ std::optional<Pose> PoseFinder::drawPair(std::uint64_t number) const {
       image_points_[static_cast<std::size_t>(uniform(0) * static_cast<double>(image_points_.size()))];
   const Eigen::Vector2d pixel = camera_.project(first.point);
   const double reach_px = camera_.fx * pairs_.mostDistanceM() / first.point.z();
-  const int rows = depth_.height / step_px_ + 1, cols = depth_.width / step_px_ + 1;
   for (std::uint32_t k = 0; k < kTries; ++k) {
     const auto at = [&](std::uint32_t index) { return uniform(1 + 7 * k + index); };
-    const double turn = 2.0 * M_PI * at(0), radius = reach_px * at(1);  // denser near the first: more of them on it
-    const int row = static_cast<int>(std::floor((pixel.y() + radius * std::sin(turn)) / step_px_));
-    const int col = static_cast<int>(std::floor((pixel.x() + radius * std::cos(turn)) / step_px_));
-    if (row < 0 || row >= rows || col < 0 || col >= cols) continue;
-    const int second =
-        point_at_[static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(col)];
-    if (second < 0) continue;
-    const auto pose =
-        pairs_.layOn(first, image_points_[static_cast<std::size_t>(second)], {at(2), at(3), at(4), at(5)}, at(6));
+    const OrientedPoint* second = neighbourOf(pixel, reach_px * at(1), 2.0 * M_PI * at(0));
+    if (second == nullptr) continue;
+    const auto pose = pairs_.layOn(first, *second, {at(2), at(3), at(4), at(5)}, at(6));
     if (pose) return pose;
   }
   return std::nullopt;
+}
+
+/// The image's point at a distance and in a direction from a pixel. @return null where there is none.
+const OrientedPoint* PoseFinder::neighbourOf(const Eigen::Vector2d& pixel, double radius_px, double turn_rad) const {
+  const int rows = depth_.height / step_px_ + 1, cols = depth_.width / step_px_ + 1;
+  const int row = static_cast<int>(std::floor((pixel.y() + radius_px * std::sin(turn_rad)) / step_px_));
+  const int col = static_cast<int>(std::floor((pixel.x() + radius_px * std::cos(turn_rad)) / step_px_));
+  if (row < 0 || row >= rows || col < 0 || col >= cols) return nullptr;
+  const int index =
+      point_at_[static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(col)];
+  return index < 0 ? nullptr : &image_points_[static_cast<std::size_t>(index)];
+}
+
+std::vector<Pose> PoseFinder::drawVotes(int references) {
+  constexpr int kPosesPerReference = 5;
+  voted_.resize(static_cast<std::size_t>(references));
+  const auto task = [&](int index, int thread) {
+    const auto i = static_cast<std::size_t>(index);
+    PairVotes& votes = votes_[static_cast<std::size_t>(thread)];
+    letNeighboursVote(drawn_ + i, votes);
+    voted_[i].clear();
+    votes.bestPoses(kPosesPerReference, voted_[i]);
+  };
+  pool_->run(references, std::cref(task));
+  drawn_ += voted_.size();
+  std::vector<Pose> poses;
+  for (const std::vector<Pose>& some : voted_) poses.insert(poses.end(), some.begin(), some.end());
+  return poses;
+}
+
+void PoseFinder::letNeighboursVote(std::uint64_t number, PairVotes& votes) const {
+  const auto uniform = [&](std::uint32_t index) { return random_.uniform(RandomPurpose::kSearch, number, index); };
+  const OrientedPoint& reference =
+      image_points_[static_cast<std::size_t>(uniform(0) * static_cast<double>(image_points_.size()))];
+  votes.start(reference);
+  const Eigen::Vector2d pixel = camera_.project(reference.point) / step_px_;
+  const int rows = depth_.height / step_px_ + 1, cols = depth_.width / step_px_ + 1;
+  const int reach = static_cast<int>(camera_.fx * pairs_.mostDistanceM() / reference.point.z()) / step_px_;
+  const int row = static_cast<int>(pixel.y()), col = static_cast<int>(pixel.x());
+  for (int r = std::max(0, row - reach); r <= std::min(rows - 1, row + reach); ++r) {
+    for (int c = std::max(0, col - reach); c <= std::min(cols - 1, col + reach); ++c) {
+      const int other = point_at_[static_cast<std::size_t>(r * cols + c)];
+      if (other < 0) continue;
+      constexpr std::uint32_t kNumbers = 5;
+      const auto at = [&](std::uint32_t index) {
+        return uniform(1 + kNumbers * static_cast<std::uint32_t>(other) + index);
+      };
+      votes.vote(image_points_[static_cast<std::size_t>(other)], {at(0), at(1), at(2), at(3)}, at(4));
+    }
+  }
 }
 
 Pose PoseFinder::drawAnywhere(std::uint64_t number) const {
@@ -278,11 +325,13 @@ std::vector<Pose> PoseFinder::distinctBest(const std::vector<Ranked>& ranked, in
 }
 
 void PoseFinder::climbAll(DepthLikelihood& likelihood, const ClimbSchedule& schedule, std::vector<Pose>& poses) const {
+  const std::size_t count = poses.size();
+  poses.resize(2 * count);
   const auto task = [&](int index, int thread) {
-    Pose& pose = poses[static_cast<std::size_t>(index)];
-    pose = climbLikelihood(likelihood, pose, schedule, thread);
+    const auto i = static_cast<std::size_t>(index);
+    poses[count + i] = climbLikelihood(likelihood, poses[i], schedule, thread);
   };
-  pool_->run(static_cast<int>(poses.size()), std::cref(task));
+  pool_->run(static_cast<int>(count), std::cref(task));
 }
 
 std::vector<FoundPose> PoseFinder::climbBest(const std::vector<Pose>& drawn, const SearchEffort& effort,

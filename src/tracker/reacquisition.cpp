@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/tracker/reacquisition.h"
 
+#include "tracker/pose_evidence.h"
+
 #include <algorithm>
 
 namespace depth_object_tracker {
 namespace {
 
-constexpr SearchEffort kAround{3000, 400, 60, 16};
-constexpr SearchEffort kEverywhere{6000, 800, 100, 16};
-constexpr SearchEffort kEverywhereAtTheStart{40000, 4000, 800, 40};
-constexpr SearchEffort kOnTable{20000, 2000, 400, 24};
-constexpr SearchEffort kOfSurvivors{60, 60, 20, 10};
+constexpr SearchEffort kAround{0, 3000, 400, 60, 16};
+constexpr SearchEffort kEverywhere{200, 2000, 200, 100, 16};
+constexpr SearchEffort kEverywhereAtTheStart{1000, 20000, 2000, 800, 40};
+constexpr SearchEffort kOnTable{0, 20000, 2000, 400, 24};
+constexpr SearchEffort kOfSurvivors{0, 60, 60, 20, 10};
 constexpr std::size_t kSurvivors = 6;
 constexpr double kSameM = 0.05, kSameRad = 0.5;  // from image to image
 
@@ -50,11 +52,26 @@ const FoundPose& mostExplaining(const std::vector<FoundPose>& found) {
   return *most;
 }
 
-/// Quality that a pose needs to be taken for the object.
-double neededQuality(const Pose& pose, const SearchRegion& region, bool was_there_before) {
-  constexpr double kNear = 0.4, kFar = 0.62, kFarSquared = 12.0, kSecondLook = 0.06;
-  const double share = std::min(1.0, squaredDistance(pose, region) / kFarSquared);
-  return kNear + (kFar - kNear) * share + (was_there_before ? -kSecondLook : kSecondLook);
+/// 0 where the object is expected, 1 far from it.
+double remoteness(const Pose& pose, const SearchRegion& region) {
+  constexpr double kFarSquared = 12.0;
+  return std::min(1.0, squaredDistance(pose, region) / kFarSquared);
+}
+
+double between(double near, double far, double remoteness) {
+  return near + (far - near) * remoteness;
+}
+
+/// Evidence [nat], gathered over images, that a pose needs to be taken for the object's.
+double neededEvidence(const SearchRegion& region, double remoteness) {
+  constexpr double kMoreIfHidden = 1.5;  // most likely it is still behind what hides it
+  return between(0.6, 1.8 + (region.everywhere ? 0.0 : kMoreIfHidden), remoteness);
+}
+
+/// What fits by chance does so in the next image, too: only what is better than this adds up.
+double worthFollowing(const SearchRegion& region, double remoteness) {
+  constexpr double kMoreIfHidden = 0.5;
+  return between(0.3, 1.2 + (region.everywhere ? 0.0 : kMoreIfHidden), remoteness);
 }
 
 double fitOfWhatIsSeen(const PoseAssessment& assessment) {
@@ -64,11 +81,19 @@ double fitOfWhatIsSeen(const PoseAssessment& assessment) {
 
 }  // namespace
 
-bool Reacquisition::wasThereBefore(const Pose& T_camera_centre) const {
-  return std::any_of(survivors_.begin(), survivors_.end(), [&](const Pose& other) {
-    const Vector6d d = difference(T_camera_centre, other);
-    return d.head<3>().norm() < kSameM && d.tail<3>().norm() < kSameRad;
-  });
+std::vector<Pose> Reacquisition::survivorPoses() const {
+  std::vector<Pose> poses;
+  for (const Survivor& one : survivors_) poses.push_back(one.T_camera_centre);
+  return poses;
+}
+
+double Reacquisition::evidenceBefore(const Pose& T_camera_centre) const {
+  double most = 0.0;
+  for (const Survivor& other : survivors_) {
+    const double moved_m = (other.T_camera_centre.translation() - T_camera_centre.translation()).norm();
+    if (moved_m < kSameM) most = std::max(most, other.evidence);
+  }
+  return most;
 }
 
 std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const PinholeCamera& camera,
@@ -76,32 +101,45 @@ std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const Pin
   finder_->setImage(depth, camera, std::max(0.2, region.T_camera_centre.translation().z()), region.occluders);
   found_.clear();
   if (!region.is_known) return searchAnywhere(region);
-  found_ = finder_->searchAround({region.T_camera_centre}, region.variances, kAround);
+  const bool everywhere_instead = !region.everywhere && ++images_ % 3 == 0;
+  if (!everywhere_instead) found_ = finder_->searchAround({region.T_camera_centre}, region.variances, kAround);
   const auto add = [this](const std::vector<FoundPose>& more) {
     found_.insert(found_.end(), more.begin(), more.end());
   };
-  add(finder_->searchAround(survivors_, survivorVariances(), kOfSurvivors));
-  if (region.everywhere) add(finder_->searchEverywhere(kEverywhere));
+  add(finder_->searchAround(survivorPoses(), survivorVariances(), kOfSurvivors));
+  if (region.everywhere || everywhere_instead) add(finder_->searchEverywhere(kEverywhere));
 
+  const auto evidence = [&](const FoundPose& one) {
+    return evidenceBefore(one.T_camera_centre) + logOdds(one) -
+           worthFollowing(region, remoteness(one.T_camera_centre, region));
+  };
   const auto margin = [&](const FoundPose& one) {
-    return one.quality - neededQuality(one.T_camera_centre, region, wasThereBefore(one.T_camera_centre));
+    return evidence(one) - neededEvidence(region, remoteness(one.T_camera_centre, region));
   };
   std::stable_sort(found_.begin(), found_.end(),
                    [&](const FoundPose& a, const FoundPose& b) { return margin(a) > margin(b); });
   const bool is_sure = !found_.empty() && margin(found_.front()) > 0.0;
-  survivors_.clear();
+  std::vector<Survivor> survivors;
   for (const FoundPose& one : found_) {
-    if (survivors_.size() < kSurvivors) survivors_.push_back(one.T_camera_centre);
+    if (survivors.size() < kSurvivors) survivors.push_back({one.T_camera_centre, evidence(one)});
   }
-  if (!is_sure || !isPatientEnough(found_.front(), region)) return std::nullopt;
+  survivors_ = std::move(survivors);
+  if (!is_sure) return std::nullopt;
   return finder_->settle(likeliestOfTheBest(found_, region), region.T_camera_centre, region.variances).T_camera_centre;
 }
 
-bool Reacquisition::isPatientEnough(const FoundPose& best, const SearchRegion& region) {
-  constexpr double kFarSquared = 6.0;
-  constexpr int kImages = 3;
-  countSameWinner(best.T_camera_centre);
-  return squaredDistance(best.T_camera_centre, region) < kFarSquared || same_winner_ >= kImages;
+double Reacquisition::logOdds(const FoundPose& found) const {
+  return findLogOdds(found.assessment, usualScore());
+}
+
+void Reacquisition::learn(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre) {
+  constexpr double kUp = 0.3, kDown = 0.1;  // parts may be hidden, or seen from a side where the mesh is worse
+  finder_->setImage(depth, camera, std::max(0.2, T_camera_centre.translation().z()));
+  const PoseAssessment assessment = finder_->judge(T_camera_centre).assessment;
+  if (!(assessment.expected > 0.0)) return;
+  const double score = std::clamp(assessment.achieved / assessment.expected, 0.5, 1.0);
+  if (!usual_score_) usual_score_ = score;
+  *usual_score_ += (score > *usual_score_ ? kUp : kDown) * (score - *usual_score_);
 }
 
 void Reacquisition::countSameWinner(const Pose& T_camera_centre) {
@@ -116,7 +154,7 @@ std::optional<Pose> Reacquisition::searchAnywhere(const SearchRegion& region) {
   constexpr double kElsewhereM = 0.04;
   constexpr double kNeeded = 0.72, kLessPerImage = 0.08, kLeastNeeded = 0.40, kClearly = 1.6, kMoreIfNotClear = 0.15;
   found_ = region.on_table ? finder_->searchOnTable(kOnTable) : finder_->searchEverywhere(kEverywhereAtTheStart);
-  const std::vector<FoundPose> again = finder_->searchAround(survivors_, survivorVariances(), kOfSurvivors);
+  const std::vector<FoundPose> again = finder_->searchAround(survivorPoses(), survivorVariances(), kOfSurvivors);
   found_.insert(found_.end(), again.begin(), again.end());
   std::stable_sort(found_.begin(), found_.end(),
                    [](const FoundPose& a, const FoundPose& b) { return a.evidence > b.evidence; });
@@ -130,7 +168,7 @@ std::optional<Pose> Reacquisition::searchAnywhere(const SearchRegion& region) {
     const bool is_elsewhere = (one.T_camera_centre.translation() - winner_.translation()).norm() > kElsewhereM;
     if (is_elsewhere) rival = std::max(rival, one.evidence);
     if (!is_elsewhere) same_place.push_back(one);
-    if (survivors_.size() < kSurvivors) survivors_.push_back(one.T_camera_centre);
+    if (survivors_.size() < kSurvivors) survivors_.push_back({one.T_camera_centre, 0.0});
   }
   const double needed = std::max(kLeastNeeded, kNeeded - kLessPerImage * same_winner_) +
                         (best.evidence > kClearly * rival ? 0.0 : kMoreIfNotClear);
@@ -160,12 +198,23 @@ std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const
                      [](const FoundPose& a, const FoundPose& b) { return a.quality > b.quality; });
   }
   const FoundPose now = finder_->judge(T_camera_centre);
-  constexpr double kExplainsMore = 1.1, kExplainsMuchMore = 1.3;
+  constexpr double kExplainsMore = 1.1;
+  if (!found_.empty() && others.everywhere) {
+    constexpr double kMuchLikelier = 2.0, kSureByItself = 2.0, kLikelier = 1.0;
+    const auto best = std::max_element(found_.begin(), found_.end(), [this](const FoundPose& a, const FoundPose& b) {
+      return logOdds(a) < logOdds(b);
+    });
+    const bool is_here = (best->T_camera_centre.translation() - T_camera_centre.translation()).norm() < kSameM;
+    const double more = best->assessment.log_likelihood / std::max(1.0, now.assessment.log_likelihood);
+    const bool explains_more = more > (is_here ? 1.0 : kExplainsMore);
+    const double needed = std::max(kSureByItself, logOdds(now) + (is_here ? kLikelier : kMuchLikelier));
+    if (explains_more && logOdds(*best) > needed) return best->T_camera_centre;
+    return std::nullopt;
+  }
   if (!found_.empty() && others.by_likelihood) {
     const FoundPose& most = mostExplaining(found_);
-    const bool is_better = most.quality > now.quality + (others.everywhere ? kSurer : 0.0) &&
-                           most.assessment.log_likelihood >
-                               (others.everywhere ? kExplainsMuchMore : kExplainsMore) * now.assessment.log_likelihood;
+    const bool is_better =
+        most.quality > now.quality && most.assessment.log_likelihood > kExplainsMore * now.assessment.log_likelihood;
     if (is_better) return most.T_camera_centre;
     return std::nullopt;
   }

@@ -12,8 +12,8 @@ class Doubt {
   /// No doubt about a pose that was given.
   void restart() { *this = Doubt(); }
 
-  /// One image. @param score 1 = as the sensor model expects. @param visible_fraction of the object. @param dt_s since
-  /// the last image.
+  /// One image. @param score 1 = as well as the object usually does. @param visible_fraction of the object. @param dt_s
+  /// since the last image.
   void update(double score, double visible_fraction, bool is_seen, double dt_s);
 
   /// What the next image asks for.
@@ -27,7 +27,9 @@ class Doubt {
 
  private:
   bool is_poor_ = false, is_mediocre_ = false;  // fits less than it could although it is in plain sight
+  bool is_seen_ = false;
   double poor_s_ = 0.0;
+  double shaken_s_ = 1e6;  // since the object was not seen where it was thought to be
   double since_look_s_ = 0.0;
   double interval_s_ = 0.3;
 };

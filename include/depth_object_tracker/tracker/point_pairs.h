@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace depth_object_tracker {
@@ -33,16 +34,33 @@ class PointPairs {
   std::optional<Pose> layOn(const OrientedPoint& first, const OrientedPoint& second,
                             const std::array<double, 4>& jitter, double choice) const;
 
- private:
+  /// Pair of the object, as one point that the other lies around.
   struct Entry {
     std::uint32_t cell;
     std::uint16_t first, second;
+    float turn_rad;  ///< of the second about the first's normal, see turnAbout()
   };
+
+  /// Pairs of the object that lie like this one: [first, last); empty when there is none. @param jitter as in layOn().
+  std::pair<const Entry*, const Entry*> alike(const OrientedPoint& first, const OrientedPoint& second,
+                                              const std::array<double, 4>& jitter) const;
+
+  /// Points that the entries speak of.
+  const std::vector<OrientedPoint>& points() const { return points_; }
+
+ private:
   std::uint32_t cellOf(const PairFeature& feature, const std::array<double, 4>& jitter) const;
 
   std::vector<OrientedPoint> points_;
   double least_m_, most_m_, distance_step_m_;
-  std::vector<Entry> entries_;  // by cell
+  std::vector<Entry> entries_;        // by cell
+  std::vector<std::uint32_t> start_;  // of each cell in entries_; one more at the end
 };
+
+/// Axes of a point: its normal and two directions across it that depend on nothing else.
+Eigen::Matrix3d axesOf(const OrientedPoint& point);
+
+/// Angle about a point's normal at which another lies, in the point's axes, [-pi, pi].
+double turnAbout(const Eigen::Matrix3d& axes, const OrientedPoint& point, const OrientedPoint& other);
 
 }  // namespace depth_object_tracker

@@ -7,6 +7,7 @@
 #include "depth_object_tracker/filter/random.h"
 #include "depth_object_tracker/render/known_occluders.h"
 #include "depth_object_tracker/tracker/oriented_points.h"
+#include "depth_object_tracker/tracker/pair_votes.h"
 #include "depth_object_tracker/tracker/plane_finder.h"
 #include "depth_object_tracker/tracker/point_pairs.h"
 #include "depth_object_tracker/tracker/sparse_fit.h"
@@ -33,10 +34,11 @@ double findQuality(const PoseAssessment& assessment);
 
 /// How many poses go into each stage of the search.
 struct SearchEffort {
-  int drawn = 0;     ///< compared with the image at a few points
-  int rendered = 0;  ///< of which rendered on few pixels
-  int climbed = 0;   ///< of which climbed
-  int refined = 0;   ///< of which climbed on more pixels
+  int references = 0;  ///< points of the image that its other points vote about
+  int drawn = 0;       ///< compared with the image at a few points
+  int rendered = 0;    ///< of which rendered on few pixels
+  int climbed = 0;     ///< of which climbed
+  int refined = 0;     ///< of which climbed on more pixels
 };
 
 class PoseFinder {
@@ -77,12 +79,16 @@ class PoseFinder {
   void findBackground();
   void listNeighbours();
   std::optional<Pose> drawPair(std::uint64_t number) const;
+  std::vector<Pose> drawVotes(int references);
+  void letNeighboursVote(std::uint64_t number, PairVotes& votes) const;
+  const OrientedPoint* neighbourOf(const Eigen::Vector2d& pixel, double radius_px, double turn_rad) const;
   Pose drawAnywhere(std::uint64_t number) const;
   template <typename Draw>
   std::vector<Pose> drawBest(const SearchEffort& effort, const Draw& draw);
   template <typename Judge>
   std::vector<Ranked> rank(const std::vector<Pose>& poses, const Judge& judge) const;
   std::vector<Pose> distinctBest(const std::vector<Ranked>& ranked, int count, double apart_m) const;
+  /// Appends where the poses climb to. They themselves stay: with a broad view, a hand beside the object pulls it away.
   void climbAll(DepthLikelihood& likelihood, const ClimbSchedule& schedule, std::vector<Pose>& poses) const;
   std::vector<FoundPose> climbBest(const std::vector<Pose>& poses, const SearchEffort& effort, bool by_evidence);
 
@@ -93,6 +99,8 @@ class PoseFinder {
   std::shared_ptr<WorkerPool> pool_;
   std::vector<OrientedPoint> object_points_, image_points_;
   PointPairs pairs_;
+  std::vector<PairVotes> votes_;          // one for each thread
+  std::vector<std::vector<Pose>> voted_;  // by each reference
   SparseFit sparse_;
   TableDraws table_draws_;
   DepthLikelihood coarse_, fine_;

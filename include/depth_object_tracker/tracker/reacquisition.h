@@ -15,7 +15,7 @@ struct SearchRegion {
   Pose T_camera_centre = Pose::Identity();
   Vector6d variances = Vector6d::Ones();  ///< [m^2, rad^2]
   bool is_known = true;                   ///< false: anywhere in the image
-  bool everywhere = false;                ///< is_known: also in the rest of the image
+  bool everywhere = false;                ///< is_known: in the rest of the image, too, else in every third one
   bool on_table = false;                  ///< not is_known: it rests on a plane that the image shows
   KnownOccluders* occluders = nullptr;    ///< the object is not where one of them is seen; null = none
 };
@@ -50,6 +50,12 @@ class Reacquisition {
   std::vector<Pose> lookAround(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre,
                                const Vector6d& variances);
 
+  /// An image in which the object is surely seen at a pose: how well does it fit? Cheap.
+  void learn(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre);
+
+  /// Score that the object has where it is surely seen, on a search's pixels.
+  double usualScore() const { return usual_score_.value_or(kScoreOfAGoodMesh); }
+
   /// The plane on which the object was looked for last; nullopt without one.
   std::optional<ImagePlane> table() const { return finder_->table(); }
 
@@ -57,17 +63,27 @@ class Reacquisition {
   const std::vector<FoundPose>& found() const { return found_; }
 
  private:
-  bool wasThereBefore(const Pose& T_camera_centre) const;
-  /// Far from where the object should be it must be seen in several images: nearer, it may only have been missed.
-  bool isPatientEnough(const FoundPose& best, const SearchRegion& region);
+  /// A good pose of the image before.
+  struct Survivor {
+    Pose T_camera_centre;
+    double evidence;  ///< that it is the object's [nat], over all images
+  };
+  std::vector<Pose> survivorPoses() const;
+  /// Evidence of earlier images for the place of a pose; the object may look alike from several sides. >= 0
+  double evidenceBefore(const Pose& T_camera_centre) const;
   void countSameWinner(const Pose& T_camera_centre);
   std::optional<Pose> searchAnywhere(const SearchRegion& region);
 
+  double logOdds(const FoundPose& found) const;
+
+  static constexpr double kScoreOfAGoodMesh = 0.97;
   std::unique_ptr<PoseFinder> finder_;
-  std::vector<Pose> survivors_;  // best poses of the image before
+  std::optional<double> usual_score_;
+  std::vector<Survivor> survivors_;
   std::vector<FoundPose> found_;
   Pose winner_ = Pose::Identity();  // of the last search with nothing known
-  int same_winner_ = 0;             // searches in a row that found the winner again
+  unsigned images_ = 0;
+  int same_winner_ = 0;  // searches in a row that found the winner again
 };
 
 }  // namespace depth_object_tracker

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pairs of points vote for poses; what a search found is told from what fits by chance.
+#include "depth_object_tracker/tracker/pair_votes.h"
+#include "tracker/pose_evidence.h"
+
+#include "depth_object_tracker/filter/random.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+namespace depth_object_tracker {
+namespace {
+
+/// Three sides of a brick with unequal edges, as a camera sees them.
+std::vector<OrientedPoint> brick() {
+  std::vector<OrientedPoint> points;
+  const Eigen::Vector3d half(0.03, 0.05, 0.08);
+  constexpr int kSteps = 7;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int i = 0; i < kSteps; ++i) {
+      for (int j = 0; j < kSteps; ++j) {
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        OrientedPoint point{Eigen::Vector3d::Zero(), Eigen::Vector3d::Unit(axis)};
+        point.point[axis] = half[axis];
+        point.point[u] = half[u] * (2.0 * (i + 0.5) / kSteps - 1.0);
+        point.point[v] = half[v] * (2.0 * (j + 0.5) / kSteps - 1.0);
+        points.push_back(point);
+      }
+    }
+  }
+  return points;
+}
+
+Pose somewhere() {
+  Pose T = Pose::Identity();
+  T.linear() = Eigen::AngleAxisd(1.2, Eigen::Vector3d(0.3, -0.8, 0.5).normalized()).toRotationMatrix();
+  T.translation() = Eigen::Vector3d(0.1, -0.05, 0.8);
+  return T;
+}
+
+class BrickVotes : public ::testing::Test {
+ protected:
+  BrickVotes() : points_(brick()), pairs_(points_, 0.196), votes_(pairs_) {}
+
+  /// Lets every point of the brick at `T` but one vote about that one.
+  std::vector<Pose> poses(const Pose& T, std::size_t reference, int count) {
+    const auto moved = [&](const OrientedPoint& point) {
+      return OrientedPoint{T * point.point, T.linear() * point.normal};
+    };
+    votes_.start(moved(points_[reference]));
+    const RandomSource random(3);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const auto number = [&](std::uint32_t k) { return random.uniform(RandomPurpose::kSearch, i, k); };
+      if (i != reference) votes_.vote(moved(points_[i]), {number(0), number(1), number(2), number(3)}, number(4));
+    }
+    std::vector<Pose> result;
+    votes_.bestPoses(count, result);
+    return result;
+  }
+
+  std::vector<OrientedPoint> points_;
+  PointPairs pairs_;
+  PairVotes votes_;
+};
+
+TEST_F(BrickVotes, MeetThePoseFromAnyOfItsPoints) {
+  const Pose truth = somewhere();
+  int met = 0, asked = 0;
+  for (std::size_t reference = 0; reference < points_.size(); reference += 7, ++asked) {
+    double least_m = 1.0;
+    for (const Pose& pose : poses(truth, reference, 5)) {
+      const Vector6d off = difference(pose, truth);
+      if (off.tail<3>().norm() < 0.3) least_m = std::min(least_m, off.head<3>().norm());
+    }
+    met += least_m < 0.03 ? 1 : 0;
+  }
+  EXPECT_GT(met, asked * 3 / 4) << "of " << asked;
+}
+
+TEST_F(BrickVotes, GiveNoMorePosesThanAskedFor) {
+  EXPECT_EQ(poses(somewhere(), 10, 3).size(), 3u);
+}
+
+TEST_F(BrickVotes, ForgetWhatWasVotedBefore) {
+  poses(somewhere(), 10, 5);
+  votes_.start(points_[0]);
+  std::vector<Pose> none;
+  votes_.bestPoses(5, none);
+  EXPECT_TRUE(none.empty());
+}
+
+PoseAssessment wellSeen() {
+  PoseAssessment assessment;
+  assessment.covered_pixels = 800;
+  assessment.measured_pixels = 790;
+  assessment.visible_pixels = 700.0;
+  assessment.surrounding_pixels = 100;
+  assessment.continued_pixels = 5;
+  assessment.expected = 4000.0;
+  assessment.achieved = 3960.0;
+  assessment.log_likelihood = 3600.0;
+  return assessment;
+}
+
+TEST(FindLogOdds, FavourWhatIsWellSeen) {
+  EXPECT_GT(findLogOdds(wellSeen(), 0.98), 2.0);
+}
+
+TEST(FindLogOdds, FallWithTheFitTheOutlineAndTheEvidence) {
+  const double best = findLogOdds(wellSeen(), 0.98);
+  PoseAssessment worse_fit = wellSeen();
+  worse_fit.achieved *= 0.9;
+  EXPECT_LT(findLogOdds(worse_fit, 0.98), best - 1.0);
+  PoseAssessment part_of_a_wall = wellSeen();
+  part_of_a_wall.continued_pixels = 40;
+  EXPECT_LT(findLogOdds(part_of_a_wall, 0.98), best - 2.0);
+  PoseAssessment little = wellSeen();
+  little.log_likelihood *= 0.25;
+  EXPECT_LT(findLogOdds(little, 0.98), best - 2.0);
+}
+
+TEST(FindLogOdds, DoNotBlameTheObjectForItsMesh) {
+  PoseAssessment bad_mesh = wellSeen();
+  bad_mesh.achieved = 0.8 * bad_mesh.expected;
+  EXPECT_NEAR(findLogOdds(bad_mesh, 0.8), findLogOdds(wellSeen(), 0.99), 1e-9);
+}
+
+TEST(FindLogOdds, AreNotRaisedByNearnessToTheCamera) {
+  PoseAssessment near_camera = wellSeen();
+  near_camera.covered_pixels *= 4;
+  near_camera.log_likelihood *= 4.0;
+  EXPECT_NEAR(findLogOdds(near_camera, 0.98), findLogOdds(wellSeen(), 0.98), 1e-9);
+}
+
+TEST(FindLogOdds, AreFiniteOrMinusInfiniteForNothing) {
+  EXPECT_LT(findLogOdds(PoseAssessment(), 0.98), -1e9);
+}
+
+}  // namespace
+}  // namespace depth_object_tracker
