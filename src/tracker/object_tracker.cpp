@@ -456,7 +456,9 @@ void ObjectTracker::Implementation::rememberFit(const FilterEstimate& estimate, 
   const bool may_be_blind =
       mayReacquire() && (status.state() != TrackerState::kInitializing || initialising_s > kFitsWithinS);
   const bool nothing_seen = status.visibleFraction() < kBlindBelowVisibleFraction || status.misfit();
-  is_blind = is_anywhere || (may_be_blind && (is_blind || nothing_seen || status.state() == TrackerState::kLost));
+  const bool never_fitted = status.state() == TrackerState::kInitializing && initialising_s > kFitsWithinS;
+  const bool lost = status.state() == TrackerState::kLost;
+  is_blind = is_anywhere || (may_be_blind && (is_blind || nothing_seen || never_fitted || lost));
 }
 
 void ObjectTracker::Implementation::learnFit(const DepthImageView& depth, double dt_s) {

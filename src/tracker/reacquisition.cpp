@@ -109,13 +109,14 @@ std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const Pin
   add(finder_->searchAround(survivorPoses(), survivorVariances(), kOfSurvivors));
   if (region.everywhere || everywhere_instead) add(finder_->searchEverywhere(kEverywhere));
 
+  // An object that was never seen may be another one, or have another size.
+  const auto remote = [&](const FoundPose& one) {
+    return usual_score_ ? remoteness(one.T_camera_centre, region) : 1.0;
+  };
   const auto evidence = [&](const FoundPose& one) {
-    return evidenceBefore(one.T_camera_centre) + logOdds(one) -
-           worthFollowing(region, remoteness(one.T_camera_centre, region));
+    return evidenceBefore(one.T_camera_centre) + logOdds(one) - worthFollowing(region, remote(one));
   };
-  const auto margin = [&](const FoundPose& one) {
-    return evidence(one) - neededEvidence(region, remoteness(one.T_camera_centre, region));
-  };
+  const auto margin = [&](const FoundPose& one) { return evidence(one) - neededEvidence(region, remote(one)); };
   std::stable_sort(found_.begin(), found_.end(),
                    [&](const FoundPose& a, const FoundPose& b) { return margin(a) > margin(b); });
   const bool is_sure = !found_.empty() && margin(found_.front()) > 0.0;
@@ -179,9 +180,10 @@ std::optional<Pose> Reacquisition::searchAnywhere(const SearchRegion& region) {
 std::vector<Pose> Reacquisition::lookAround(const DepthImageView& depth, const PinholeCamera& camera,
                                             const Pose& T_camera_centre, const Vector6d& variances) {
   finder_->setImage(depth, camera, std::max(0.2, T_camera_centre.translation().z()));
+  constexpr double kLeastLogOdds = 1.0;  // some part of a mesh that is far too large fits anywhere
   std::vector<Pose> poses;
   for (const FoundPose& one : finder_->searchAround({T_camera_centre}, variances, kAround)) {
-    poses.push_back(one.T_camera_centre);
+    if (logOdds(one) > kLeastLogOdds) poses.push_back(one.T_camera_centre);
   }
   return poses;
 }

@@ -54,7 +54,7 @@ class Reacquisition {
   void learn(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre);
 
   /// Score that the object has where it is surely seen, on a search's pixels.
-  double usualScore() const { return usual_score_.value_or(kScoreOfAGoodMesh); }
+  double usualScore() const { return usual_score_.value_or(kScoreOfAFairMesh); }
 
   /// The plane on which the object was looked for last; nullopt without one.
   std::optional<ImagePlane> table() const { return finder_->table(); }
@@ -76,7 +76,7 @@ class Reacquisition {
 
   double logOdds(const FoundPose& found) const;
 
-  static constexpr double kScoreOfAGoodMesh = 0.97;
+  static constexpr double kScoreOfAFairMesh = 0.92;
   std::unique_ptr<PoseFinder> finder_;
   std::optional<double> usual_score_;
   std::vector<Survivor> survivors_;
