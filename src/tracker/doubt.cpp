@@ -10,8 +10,8 @@ namespace {
 constexpr double kPoorScore = 0.85, kMediocreScore = 0.92;
 constexpr double kPlainSight = 0.6;
 constexpr double kBadScore = 0.8, kBriefS = 0.05;
-// After the object was hidden or gone from where it was, what fits next may be something else beside it.
-constexpr double kShakingScore = 0.6, kShakenForS = 0.6, kLooksWhileShakenS = 0.2;
+// After the object was gone from where it was, what fits next may be something else beside it.
+constexpr double kShakingScore = 0.6, kSomethingVisible = 0.04, kShakenForS = 0.6, kLooksWhileShakenS = 0.2;
 constexpr double kPoorScoreOfLittle = 0.7, kPoorForS = 0.3;  // little that is seen often fits a little worse
 constexpr double kLookAroundForS = 2.0;                      // at every image; in vain: from time to time
 constexpr double kShortestIntervalS = 0.3, kLongestIntervalS = 8.0;
@@ -25,7 +25,8 @@ void Doubt::update(double score, double visible_fraction, bool is_seen, double d
   // What is half hidden may fit badly and be right, and the image is full of arms.
   is_mediocre_ = is_seen && ((visible_fraction > kPlainSight && score < kMediocreScore) ||
                              (poor_s_ > kBriefS && score < kBadScore));
-  shaken_s_ = !is_seen || score < kShakingScore ? 0.0 : shaken_s_ + dt_s;
+  const bool is_contradicted = score < kShakingScore && visible_fraction > kSomethingVisible;
+  shaken_s_ = is_contradicted ? 0.0 : shaken_s_ + dt_s;
   is_seen_ = is_seen;
   since_look_s_ += dt_s;
   if (!is_mediocre_) interval_s_ = std::max(kShortestIntervalS, interval_s_ * std::exp2(-dt_s));

@@ -29,7 +29,7 @@ class Doubt {
   bool is_poor_ = false, is_mediocre_ = false;  // fits less than it could although it is in plain sight
   bool is_seen_ = false;
   double poor_s_ = 0.0;
-  double shaken_s_ = 1e6;  // since the object was not seen where it was thought to be
+  double shaken_s_ = 1e6;  // since the image contradicted the pose
   double since_look_s_ = 0.0;
   double interval_s_ = 0.3;
 };
