@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Sourced: options of programs that were built with a sanitizer. What is suppressed, and why, stands in the files beside.
+# Sourced: options of programs that were built with a sanitizer. What is suppressed, and why, stands in tsan.supp; for the other
+# sanitizers nothing is.
 SANITIZERS="$REPOSITORY/test/sanitizers"
 
 # use_sanitizer_options [FOLDER]: with a folder every process leaves what it finds there: nobody reads what a node prints, and
@@ -12,7 +13,6 @@ use_sanitizer_options() {
     log=":log_path=$1/report:log_exe_name=1"
   fi
   export ASAN_OPTIONS="detect_stack_use_after_return=1:strict_string_checks=1$log"
-  export LSAN_OPTIONS="suppressions=$SANITIZERS/lsan.supp:print_suppressions=0$log"
   export UBSAN_OPTIONS="print_stacktrace=1$log"
   export TSAN_OPTIONS="suppressions=$SANITIZERS/tsan.supp:second_deadlock_stack=1$log"
 }
