@@ -7,6 +7,7 @@
 #include <ros/time.h>
 #include <tf2/exceptions.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -109,7 +110,7 @@ bool RobotConnection::awaits(const std::string& link, const std::string& camera_
   if (config_.camera_pose_source == CameraPoseSource::kUrdf) {
     return model().hasLink(camera_frame) && state_.awaitsJoints(camera_frame, stamp_s);
   }
-  const ros::Time time(stamp_s + config_.state.joint_time_offset_s);
+  const ros::Time time(std::max(0.0, stamp_s + config_.state.joint_time_offset_s));  // simulated time begins at 0
   return !tf_.canTransform(camera_frame, baseFrame(), time) &&
          tf_.canTransform(camera_frame, baseFrame(), ros::Time(0));
 }

@@ -244,7 +244,8 @@ void RobotArm::Implementation::draw(double t_s, const View& view, const DrawSurf
     for (std::size_t k = 0; k < names.size(); ++k) {
       const auto finger = grasp_.fingers.find(names[k]);
       const auto in_arm = std::find(hand_.joints().begin(), hand_.joints().end(), names[k]) - hand_.joints().begin();
-      positions[static_cast<Eigen::Index>(k)] = finger != grasp_.fingers.end() ? finger->second : arm[in_arm];
+      const double other = in_arm < arm.size() ? arm[in_arm] : 0.0;  // joints beside the arm, such as a head's, rest
+      positions[static_cast<Eigen::Index>(k)] = finger != grasp_.fingers.end() ? finger->second : other;
     }
     const Pose T_view_link = view.T_view_camera * T_camera_base_ * link.chain.pose(positions);
     surface(link.renderer.render(T_view_link, view.camera), kReflectance);

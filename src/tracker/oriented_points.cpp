@@ -14,6 +14,12 @@ namespace {
 
 constexpr int kPatchSide = 7;  // readings looked at along a patch's side
 
+/// A length in pixels that is safe to reckon with: what lies a micrometre before the lens would fill millions of
+/// images.
+double withinImage(const DepthImageView& depth, double length_px, double least_px) {
+  return std::clamp(length_px, least_px, static_cast<double>(depth.width + depth.height));
+}
+
 float readingAt(const DepthImageView& depth, int row, int col) {
   if (row < 0 || row >= depth.height || col < 0 || col >= depth.width) return 0.0f;
   const float z = depth.at(row, col);
@@ -34,8 +40,8 @@ bool liesOnLargePlane(const DepthImageView& depth, const PinholeCamera& camera, 
                       double object_diameter_m) {
   constexpr double kReachPerDiameter = 0.55;
   constexpr int kFlatLines = 3;
-  const int reach =
-      std::max(2, static_cast<int>(kReachPerDiameter * object_diameter_m * camera.fx / static_cast<double>(z)));
+  const int reach = static_cast<int>(
+      withinImage(depth, kReachPerDiameter * object_diameter_m * camera.fx / static_cast<double>(z), 2.0));
   const int diagonal = reach * 7 / 10;
   return isFlatAlong(depth, row, col, 0, reach, z) + isFlatAlong(depth, row, col, reach, 0, z) +
              isFlatAlong(depth, row, col, diagonal, diagonal, z) +
@@ -75,7 +81,7 @@ std::optional<OrientedPoint> orientedPointAt(const DepthImageView& depth, const 
   constexpr double kLargestRatio = 0.15;  // of the patch's thickness to its breadth
   const auto z = static_cast<double>(readingAt(depth, row, col));
   if (!(z > 0.0)) return std::nullopt;
-  const double step_px = std::max(1.0, 2.0 * reach_m * camera.fx / z / (kPatchSide - 1));
+  const double step_px = withinImage(depth, 2.0 * reach_m * camera.fx / z / (kPatchSide - 1), 1.0);
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   int count = 0;

@@ -90,7 +90,8 @@ void PoseFinder::setImage(const DepthImageView& depth, const PinholeCamera& came
   constexpr double kStepPerSize = 0.06;
   depth_ = depth;
   camera_ = camera;
-  step_px_ = std::max(2, static_cast<int>(kStepPerSize * feature_m_ * camera.fx / distance_m));
+  step_px_ = static_cast<int>(std::clamp(kStepPerSize * feature_m_ * camera.fx / distance_m, 2.0,
+                                         static_cast<double>(camera.width + camera.height)));
   coarse_.resetOcclusion();
   fine_.resetOcclusion();
   coarse_.setImage(depth, makeSamplingGrid(camera, samplingFactor(camera, feature_m_, distance_m, kCoarsePixels)), 0.0);

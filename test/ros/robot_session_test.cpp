@@ -129,6 +129,17 @@ TEST_P(MovingCamera, IsPlacedByTfAtTheStamp) {
 
 INSTANTIATE_TEST_SUITE_P(FixedFrame, MovingCamera, testing::Values("", "base_link"));
 
+TEST_F(RobotSessionTest, ImagesFromBeforeTheJointsClockBeganAreNoError) {
+  RobotConnectionConfig config;
+  config.state.joint_time_offset_s = -0.5;  // simulated time begins at 0
+  connect(config);
+  mountCamera();
+  session_.setGrasp(true, "hand_link");
+  stamp_s_ = 0.1;
+  step(true, arm_.T_camera_object(kBeginS));
+  EXPECT_NO_THROW(session_.awaitsControl(ros::Time(0.2)));
+}
+
 TEST_F(RobotSessionTest, ACameraOfTheUrdfNeedsNoTf) {
   RobotConnectionConfig config;
   config.camera_pose_source = CameraPoseSource::kUrdf;

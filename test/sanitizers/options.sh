@@ -1,7 +1,27 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Sourced: options of programs that were built with a sanitizer. What is suppressed, and why, stands in the files beside.
+# Sourced: options of programs that were built with a sanitizer. What is suppressed, and why, stands in tsan.supp; for the other
+# sanitizers nothing is.
 SANITIZERS="$REPOSITORY/test/sanitizers"
-export ASAN_OPTIONS="detect_stack_use_after_return=1:strict_string_checks=1"
-export LSAN_OPTIONS="suppressions=$SANITIZERS/lsan.supp:print_suppressions=0"
-export UBSAN_OPTIONS="suppressions=$SANITIZERS/ubsan.supp:print_stacktrace=1"
-export TSAN_OPTIONS="suppressions=$SANITIZERS/tsan.supp:ignore_noninstrumented_modules=1:second_deadlock_stack=1"
+
+# use_sanitizer_options [FOLDER]: with a folder every process leaves what it finds there: nobody reads what a node prints, and
+# what ends a node with respawn may not fail a test.
+use_sanitizer_options() {
+  local log=""
+  if [ $# -gt 0 ]; then
+    rm -rf "$1"
+    mkdir -p "$1"
+    log=":log_path=$1/report:log_exe_name=1"
+  fi
+  export ASAN_OPTIONS="detect_stack_use_after_return=1:strict_string_checks=1$log"
+  export UBSAN_OPTIONS="print_stacktrace=1$log"
+  export TSAN_OPTIONS="suppressions=$SANITIZERS/tsan.supp:second_deadlock_stack=1$log"
+}
+
+# show_sanitizer_reports FOLDER: prints them; fails when there is one.
+show_sanitizer_reports() {
+  local reports
+  mapfile -t reports < <(find "$1" -type f -size +0 | sort)
+  [ "${#reports[@]}" -eq 0 ] || head -n 60 "${reports[@]}"
+  echo "${#reports[@]} processes with findings"
+  [ "${#reports[@]}" -eq 0 ]
+}
