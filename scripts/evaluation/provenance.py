@@ -38,6 +38,8 @@ def processor():
 
 def configuration(source_folder, program, config):
     """Text of the file; without one the defaults, of which config/tracker.yaml tells (a test compares the two)."""
+    if program is None:
+        return "unknown: existing estimates"
     if config:
         return f"{config.name}\n{config.read_text(encoding='utf-8')}"
     defaults = source_folder / "config/tracker.yaml"

@@ -148,7 +148,7 @@ def write_report(path, made_with, summaries, total, overall_pictures, scene_pict
              "<p>Errors are ADD, or ADD-S for objects with declared symmetries, over frames with at least 10 % of the object in "
              "sight; medians over the runs, maxima, lost frames, recovery and 99 % times of the worst run. A loss is an error over "
              "5 cm in more than 15 frames, counted while the object has been in sight for 10 frames. NEES over frames with a "
-             "published pose. Overall: mean of the AUCs, median of the other medians, NEES and ROC over all frames and pixels.</p>",
+             "published pose. Grey in the pictures: the object is out of sight. Overall: mean of the AUCs, median of the other medians, NEES and ROC over all frames and pixels.</p>",
              summary_table(summaries, total)]
     parts += [picture(p) for p in overall_pictures]
     if "confusion" in total:
