@@ -59,7 +59,7 @@ def write(folder, method, scenes, outcomes):
     for name, entries in groups.items():
         members = [scene for scene, _ in entries]
         with open(folder / name, "w", newline="", encoding="utf-8") as file:
-            writer = csv.writer(file)
+            writer = csv.writer(file, lineterminator="\n")
             writer.writerow(COLUMNS)
             writer.writerows(make_rows(members, {scene.name: table for scene, table in entries}))
         numbers = scene_numbers(members)

@@ -8,8 +8,11 @@ from . import report
 
 # (heading, key, digits, factor, from "median" or "worst")
 FIGURES = [("median error [mm]", "error_mm_median", 2, 1, "median"), ("95 % [mm]", "error_mm_p95", 1, 1, "median"),
-           ("AUC", "auc_error", 1, 100, "median"), ("within 5 cm, 5 deg [%]", "within_5cm_5deg", 1, 100, "median"),
-           ("lost frames", "lost_frames", 0, 1, "worst"), ("ms", "time_ms_median", 1, 1, "median")]
+           ("AUC [%]", "auc_error", 1, 100, "median"), ("within 5 cm, 5 deg [%]", "within_5cm_5deg", 1, 100, "median"),
+           ("lost frames", "lost_frames", 0, 1, "worst"), ("time [ms]", "time_ms_median", 1, 1, "median")]
+LEGEND = ("Errors are ADD, or ADD-S for objects with declared symmetries, over frames with at least 10 % of the object in sight. "
+          "Overall: mean of the scenes' AUCs (threshold 10 cm), median of their other medians, lost frames of the scene with most. A loss "
+          "is an error over 5 cm in more than 15 frames, counted while the object has been in sight for 10 frames.")
 PER_SCENE = [("median error [mm]", "error_mm_median", 2, "median"), ("lost frames", "lost_frames", 0, "worst")]
 
 
@@ -51,21 +54,19 @@ def scene_table(results, heading, key, digits, source):
 
 def plot(path, results):
     """Median error by scene and tracker, logarithmic: good and lost trackers fit into one picture."""
-    from .plot_style import LINES, new_figure, save
+    from .plot_style import LINES, log_axis, new_figure, save
 
     names = scene_names(results)
-    figure, axes = new_figure(1, 1, 11, 0.4 * len(names) + 1.6)
-    height = 0.8 / max(1, len(results))
+    figure, axes = new_figure(1, 1, 11, 0.3 * len(names) + 1.4)
+    log_axis(axes.xaxis, fine=True)
     for k, (tracker, summary) in enumerate(results.items()):
         found = _by_scene(summary)
         values = [value_of(found.get(scene), "error_mm_median", "median") for scene in names]
-        places = [i + (k - 0.5 * (len(results) - 1)) * height for i in range(len(names))]
-        axes.barh(places, values, height=height, label=tracker, color=LINES[k % len(LINES)])
-    axes.set_xscale("log")
+        axes.scatter(values, range(len(names)), s=40, marker="osD^v"[k % 5], label=tracker, color=LINES[k % len(LINES)], zorder=2)
     axes.set_yticks(range(len(names)), names)
     axes.invert_yaxis()
     axes.set_xlabel("median error [mm] (ADD; ADD-S for symmetric objects)")
-    axes.legend(loc="best", fontsize="small")
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncol=4, frameon=False, fontsize="small")
     return save(figure, path)
 
 
@@ -79,15 +80,19 @@ def write_csv(path, results):
                                                             for _, key, _, _, source in FIGURES])
 
 
-def write_page(path, results, pictures, notes):
-    """results: {tracker: content of its summary.json}; notes: sentences, what was left out among them."""
+def write_page(path, results, pictures, notes, reports=None):
+    """results: {tracker: content of its summary.json}; notes: sentences, what was left out among them; reports: {tracker: address
+    of its own report}."""
     parts = ['<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>Report</title>'
-             f"<style>{report.STYLE}</style></head><body><h1>Trackers on the same frames</h1>"]
+             f"<style>{report.STYLE}</style></head><body><h1>Trackers on the same frames</h1>", f"<p>{html.escape(LEGEND)}</p>"]
     parts += [f"<p>{html.escape(note)}</p>" for note in notes]
     parts.append(overall_table(results))
     parts += [report.picture(picture) for picture in pictures]
     parts += [scene_table(results, *figure) for figure in PER_SCENE]
     for name, summary in results.items():
-        parts.append(f"<h2>{html.escape(name)}</h2>" + report.provenance_table(summary["provenance"]))
+        parts.append(f"<h2>{html.escape(name)}</h2>")
+        if reports and name in reports:
+            parts.append(f'<p><a href="{html.escape(reports[name])}">All figures and pictures by scene</a></p>')
+        parts.append(report.provenance_table(summary["provenance"]))
     parts.append("</body></html>")
     path.write_text("\n".join(parts) + "\n", encoding="utf-8")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plots over all sequences: accuracy against threshold, reliability, ROC."""
-from .plot_style import LINES, TRUTH, new_figure, save
+from .plot_style import LINES, TRUTH, log_axis, new_figure, save
 
 
 def _scene_lines(axes, summaries, draw):
@@ -14,6 +14,7 @@ def _scene_lines(axes, summaries, draw):
 
 def plot_accuracy(path, summaries, total):
     figure, axes = new_figure(1, 1, 7, 4)
+    axes.set_title("Accuracy", fontsize=10, loc="left")
 
     def draw(summary, style):
         curve = summary["accuracy_curve"]
@@ -21,8 +22,8 @@ def plot_accuracy(path, summaries, total):
 
     draw(total, {"color": TRUTH, "linewidth": 2.2, "label": "all frames"})
     _scene_lines(axes, summaries, draw)
+    log_axis(axes.xaxis)
     axes.set_xlim(0.1, 100.0)
-    axes.set_xscale("log")
     axes.set_ylim(0.0, 1.01)
     axes.set_xlabel("threshold on ADD (ADD-S for symmetric objects) [mm]")
     axes.set_ylabel("share of frames within")
@@ -32,6 +33,7 @@ def plot_accuracy(path, summaries, total):
 def plot_reliability(path, summaries, total):
     """Observed against expected coverage; above the diagonal the covariance is too large, below it too small."""
     figure, axes = new_figure(1, 1, 7, 4)
+    axes.set_title("Covariance: above the diagonal it is too large, below it too small", fontsize=10, loc="left")
     axes.plot([0, 1], [0, 1], color="#999999", linewidth=1.0, linestyle="--")
 
     def draw(summary, style):
@@ -49,6 +51,7 @@ def plot_reliability(path, summaries, total):
 def plot_roc(path, counters):
     """counters: {name: RocCounter}; the first is drawn thick."""
     figure, axes = new_figure(1, 1, 7, 4)
+    axes.set_title("Occlusion per pixel: ROC curve and the area below it", fontsize=10, loc="left")
     axes.plot([0, 1], [0, 1], color="#999999", linewidth=1.0, linestyle="--")
     for k, (name, counter) in enumerate(counters.items()):
         style = {"color": TRUTH, "linewidth": 2.2} if k == 0 else {"color": LINES[k % len(LINES)], "linewidth": 0.9}

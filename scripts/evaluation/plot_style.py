@@ -2,6 +2,7 @@
 """What all plots share. Figures are made without pyplot: no window system, no global state."""
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 TRUTH, ESTIMATE, FORWARD_KINEMATICS = "#222222", "#c8442c", "#2a6fbb"
 STATE_COLOURS = {"TRACKING": "#3f8f4f", "OCCLUDED": "#e0a030", "LOST": "#c8442c", "INITIALIZING": "#2a6fbb",
@@ -20,6 +21,14 @@ def new_figure(rows, columns, width, height, **options):
         for side in ("top", "right"):
             one.spines[side].set_visible(False)
     return figure, axes
+
+
+def log_axis(axis, fine=False):
+    """Logarithmic with plain numbers: 0.1, 1, 10. @param fine: also 0.2, 0.5, ..., for an axis over few decades."""
+    axis.axes.set_xscale("log") if axis.axis_name == "x" else axis.axes.set_yscale("log")
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if fine else (1.0,)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def save(figure, path, dpi=90):

@@ -7,42 +7,45 @@ import math
 from .state_confusion import STATES, TRUE_STATES
 
 STYLE = """
-body { font: 14px/1.45 system-ui, sans-serif; color: #222; max-width: 1200px; margin: 2em auto; padding: 0 1em; }
+body { font: 14px/1.45 system-ui, sans-serif; color: #222; max-width: 1500px; margin: 2em auto; padding: 0 1em; }
 table { border-collapse: collapse; margin: .6em 0 1.2em; font-size: 13px; }
-th, td { padding: .2em .6em; text-align: right; border-bottom: 1px solid #ddd; font-variant-numeric: tabular-nums; }
+th, td { padding: .2em .6em; text-align: right; border-bottom: 1px solid #ddd; font-variant-numeric: tabular-nums; white-space: nowrap; }
+th { white-space: normal; vertical-align: bottom; min-width: 3em; }
 th:first-child, td:first-child { text-align: left; }
 tr.overall td { border-top: 2px solid #888; font-weight: 600; }
 .bad { color: #c8442c; font-weight: 600; }
 img { max-width: 100%; }
 h2 { margin-top: 2em; border-bottom: 1px solid #ccc; }
+p { max-width: 1000px; }
 pre { background: #f6f6f6; padding: .6em; overflow-x: auto; font-size: 12px; }
 .tables { display: flex; gap: 3em; flex-wrap: wrap; }
 """
 
 # (heading, key, digits, factor, from "median" or "worst")
-COLUMNS = [("median [mm]", "error_mm_median", 3, 1, "median"), ("95 %", "error_mm_p95", 2, 1, "median"),
-           ("max", "error_mm_max", 1, 1, "worst"), ("AUC ADD", "auc_add", 2, 100, "median"),
-           ("AUC ADD-S", "auc_add_s", 2, 100, "median"), ("5 cm, 5 deg [%]", "within_5cm_5deg", 1, 100, "median"),
+COLUMNS = [("median [mm]", "error_mm_median", 3, 1, "median"), ("95 % [mm]", "error_mm_p95", 2, 1, "median"),
+           ("max [mm]", "error_mm_max", 1, 1, "worst"), ("AUC ADD [%]", "auc_add", 2, 100, "median"),
+           ("AUC ADD&#8209;S [%]", "auc_add_s", 2, 100, "median"), ("within 5&nbsp;cm, 5&nbsp;deg [%]", "within_5cm_5deg", 1, 100, "median"),
            ("translation 95 % [mm]", "translation_mm_p95", 2, 1, "median"),
            ("rotation 95 % [deg]", "rotation_deg_p95", 2, 1, "median"), ("lost frames", "lost_frames", 0, 1, "worst"),
            ("back after full occlusion [frames]", "recovery_after_occlusion_frames", 0, 1, "worst"),
-           ("in 95 % region [%]", "inside95", 1, 100, "median"), ("NEES/dof", "nees_per_dof", 2, 1, "median"),
-           ("occlusion ROC area", "occlusion_roc", 3, 1, "median"), ("ms", "time_ms_median", 1, 1, "median"),
-           ("ms 99 %", "time_ms_p99", 1, 1, "worst")]
+           ("in 95&nbsp;% region [%]", "inside95", 1, 100, "median"), ("NEES/dof", "nees_per_dof", 2, 1, "median"),
+           ("occlusion ROC area", "occlusion_roc", 3, 1, "median"), ("time [ms]", "time_ms_median", 1, 1, "median"),
+           ("time 99&nbsp;% [ms]", "time_ms_p99", 1, 1, "worst")]
 
 DETAILS = [("ADD [mm]", "add_mm"), ("ADD-S [mm]", "add_s_mm"), ("translation [mm]", "translation_mm"),
            ("rotation [deg]", "rotation_deg")]
 
-OTHERS = [("judged frames", "judged_frames"), ("loss episodes", "loss_episodes"),
-          ("frames back after a loss", "recovery_after_loss_frames"), ("full occlusions", "full_occlusions"),
-          ("rank correlation of stddev and error, translation", "rank_translation"),
-          ("rank correlation of stddev and error, rotation", "rank_rotation"),
-          ("occlusion lag [frames]", "occlusion_lag_frames"),
-          ("occluder comes: reaction of 90 % of the pixels [frames]", "reaction_comes_frames"),
-          ("occluder goes: reaction of 90 % of the pixels [frames]", "reaction_goes_frames"),
-          ("longest TRACKING while truly lost [frames]", "wrong_as_tracking_longest"),
-          ("false LOST frames", "false_lost_frames"), ("jitter at rest [mm]", "jitter_mm"),
-          ("jitter at rest [deg]", "jitter_deg"), ("delay [frames]", "delay_frames")]
+# (label, key, digits)
+OTHERS = [("judged frames", "judged_frames", 0), ("loss episodes", "loss_episodes", 0),
+          ("frames back after a loss", "recovery_after_loss_frames", 0), ("full occlusions", "full_occlusions", 0),
+          ("rank correlation of stddev and error, translation", "rank_translation", 2),
+          ("rank correlation of stddev and error, rotation", "rank_rotation", 2),
+          ("occlusion lag [frames]", "occlusion_lag_frames", 2),
+          ("occluder comes: reaction of 90 % of the pixels [frames]", "reaction_comes_frames", 2),
+          ("occluder goes: reaction of 90 % of the pixels [frames]", "reaction_goes_frames", 2),
+          ("longest TRACKING while truly lost [frames]", "wrong_as_tracking_longest", 0),
+          ("false LOST frames", "false_lost_frames", 0), ("jitter at rest [mm]", "jitter_mm", 3),
+          ("jitter at rest [deg]", "jitter_deg", 3), ("delay [frames]", "delay_frames", 2)]
 
 
 def number(value, digits):
@@ -50,6 +53,8 @@ def number(value, digits):
         return "–"
     if isinstance(value, float) and math.isinf(value):
         return '<span class="bad">never</span>'
+    if abs(value) >= 1e5:
+        return f"{value:.1e}"
     return f"{value:,.{digits}f}"
 
 
@@ -108,8 +113,8 @@ def details_table(summary):
 
 
 def others_table(summary):
-    rows = [[label, number(summary["median"].get(key, math.nan), 2), number(summary["worst"].get(key, math.nan), 2)]
-            for label, key in OTHERS]
+    rows = [[label, number(summary["median"].get(key, math.nan), digits), number(summary["worst"].get(key, math.nan), digits)]
+            for label, key, digits in OTHERS]
     return table(["", "median of the runs", "worst"], rows)
 
 
@@ -126,9 +131,13 @@ def scene_section(summary, pictures):
 
 
 def provenance_table(made_with):
-    rows = [[html.escape(key), f"<pre>{html.escape(value)}</pre>" if "\n" in value else html.escape(value)]
-            for key, value in made_with.items()]
-    return table(["made with", ""], rows).replace("<td>", '<td style="text-align:left">')
+    """Texts of several lines are folded up behind their first."""
+    def cell(value):
+        first, *others = value.split("\n")
+        return f"<details><summary>{html.escape(first)}</summary><pre>{html.escape(value)}</pre></details>" if others else html.escape(value)
+
+    rows = [[html.escape(key), cell(value)] for key, value in made_with.items()]
+    return table(["made with", ""], rows).replace("<td>", '<td style="text-align:left; white-space:normal">')
 
 
 def write_report(path, made_with, summaries, total, overall_pictures, scene_pictures):
@@ -139,7 +148,7 @@ def write_report(path, made_with, summaries, total, overall_pictures, scene_pict
              "<p>Errors are ADD, or ADD-S for objects with declared symmetries, over frames with at least 10 % of the object in "
              "sight; medians over the runs, maxima, lost frames, recovery and 99 % times of the worst run. A loss is an error over "
              "5 cm in more than 15 frames, counted while the object has been in sight for 10 frames. NEES over frames with a "
-             "published pose. Overall: mean of the AUCs, median of the other medians, NEES and ROC over all frames and pixels.</p>",
+             "published pose. Grey in the pictures: the object is out of sight. Overall: mean of the AUCs, median of the other medians, NEES and ROC over all frames and pixels.</p>",
              summary_table(summaries, total)]
     parts += [picture(p) for p in overall_pictures]
     if "confusion" in total:

@@ -7,7 +7,7 @@ import numpy as np
 
 from .episodes import LOSS_ERROR_M, SEEN_SHARE
 from .occlusion_score import OCCLUDED, VISIBLE, read_grey, read_mask
-from .plot_style import ESTIMATE, FORWARD_KINEMATICS, STATE_COLOURS, TRUTH, new_figure, save, shade_hidden
+from .plot_style import ESTIMATE, FORWARD_KINEMATICS, STATE_COLOURS, TRUTH, log_axis, new_figure, save, shade_hidden
 from .poses import pose, roll_pitch_yaw, rotation_from_quaternion
 from .symmetries import fold
 
@@ -59,6 +59,7 @@ def plot_trajectory(path, scene, table, symmetries):
         one.plot(times, truth[:, k], color=TRUTH, linewidth=1.6, label="truth")
         one.plot(times, estimate[:, k], color=ESTIMATE, linewidth=1.0, label="estimate")
         one.set_ylabel(LABELS[k])
+        one.ticklabel_format(axis="y", useOffset=False)
     for one in axes[1]:
         one.set_xlabel("time [s]")
     axes[0, 0].legend(frameon=False, fontsize=8)
@@ -78,17 +79,19 @@ def plot_errors(path, table):
         chosen = np.array([said == state for said in table.states])
         if chosen.any():
             upper.scatter(times[chosen], error_mm[chosen], s=9, color=colour, label=state, zorder=2)
-    upper.axhline(1e3 * LOSS_ERROR_M, color="#999999", linewidth=0.8, linestyle="--")
-    upper.set_yscale("log")
+    upper.axhline(1e3 * LOSS_ERROR_M, color="#999999", linewidth=0.8, linestyle="--", label="loss")
+    log_axis(upper.yaxis)
     upper.set_ylabel(("ADD-S" if table.symmetric else "ADD") + " [mm]")
-    upper.legend(frameon=False, fontsize=8, ncol=5)
-    lower.plot(times, np.where(np.isnan(table.visible), 1.0, table.visible), color=TRUTH, linewidth=1.2, label="truth")
+    above = {"frameon": False, "fontsize": 8, "loc": "lower right", "bbox_to_anchor": (1.0, 0.97)}
+    upper.legend(ncol=6, **above)
+    if np.isfinite(table.visible).any():
+        lower.plot(times, table.visible, color=TRUTH, linewidth=1.2, label="truth")
     lower.plot(times, table.estimated_visible, color=ESTIMATE, linewidth=1.0, label="estimate")
     lower.axhline(SEEN_SHARE, color="#999999", linewidth=0.8, linestyle="--")
     lower.set_ylim(-0.03, 1.03)
     lower.set_ylabel("visible share")
     lower.set_xlabel("time [s]")
-    lower.legend(frameon=False, fontsize=8, ncol=2)
+    lower.legend(ncol=2, **above)
     figure.tight_layout()
     return save(figure, path)
 
@@ -130,5 +133,6 @@ def plot_occlusion(path, scene, truth, folder):
         one.set_xticks([])
         one.set_yticks([])
         one.grid(False)
+        one.spines[:].set_visible(False)
     figure.tight_layout()
     return save(figure, path)

@@ -69,6 +69,21 @@ class BopLayout(EvaluateTest):
         self.assertEqual((again.returncode, again.stderr), (0, ""))
         self.assertAlmostEqual(self.summary(self.folder / "again")["scenes"][1]["median"]["add_mm_median"], 1.0, places=5)
 
+    def test_result_lines_are_what_the_toolkit_splits(self):
+        self.evaluate(self.root, "--program", self.tracker)
+        content = (self.output / "bop/faketracker_tinyset-test_seed1.csv").read_bytes().decode("ascii")
+        self.assertNotIn("\r", content)
+        header, *lines = content.splitlines()
+        self.assertEqual(header, "scene_id,im_id,obj_id,score,R,t,time")
+        times = {}
+        for line in lines:
+            scene_id, im_id, _, score, R, t, time = line.split(",")  # seven, none of them in quotes
+            rotation = np.array([float(x) for x in R.split()]).reshape(3, 3)
+            np.testing.assert_allclose(rotation @ rotation.T, np.eye(3), atol=1e-6)
+            self.assertEqual(len([float(x) for x in t.split()]), 3)
+            float(score)
+            self.assertEqual(times.setdefault((int(scene_id), int(im_id)), time), time)
+
     def test_file_names_come_apart_at_the_right_places(self):
         scene = Scene("", self.folder, data_set="my_set", split="test_primesense")
         self.assertEqual(file_name("track_sequence", scene, "seed1"), "tracksequence_myset-test-primesense_seed1.csv")

@@ -43,6 +43,12 @@ class Comparison(unittest.TestCase):
         for part in ("abc", "A note.", "bad &lt;one&gt;", SCENES[0].name):
             self.assertIn(part, page)
 
+    def test_the_page_links_to_the_reports_of_single_trackers(self):
+        comparison.write_page(self.folder / "index.html", self.results, [], [], {"good": "good/report.html"})
+        page = (self.folder / "index.html").read_text(encoding="utf-8")
+        self.assertEqual(page.count('href="'), 1)
+        self.assertIn('href="good/report.html"', page)
+
 
 if __name__ == "__main__":
     unittest.main()

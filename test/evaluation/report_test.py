@@ -7,7 +7,7 @@ import tempfile
 import unittest
 
 from aggregate_test import SCENES, make_outcome
-from evaluation import report, result_files, terminal_table
+from evaluation import provenance, report, result_files, terminal_table
 from evaluation.aggregate import summarise_all, summarise_scene
 
 
@@ -36,9 +36,21 @@ class Tables(unittest.TestCase):
         self.assertIn("&lt;script&gt;", section)
         self.assertNotIn("<script>", section)
 
+    def test_long_texts_are_folded_up(self):
+        table = report.provenance_table({"commit": "abc", "configuration": "defaults\n<a>: 1\n"})
+        self.assertIn("<summary>defaults</summary>", table)
+        self.assertIn("&lt;a&gt;: 1", table)
+        self.assertNotIn("<summary>abc", table)
+
+    def test_defaults_are_told_in_full(self):
+        made_with = provenance.describe(pathlib.Path("."), pathlib.Path("/bin/track_sequence"), None, 1)
+        self.assertIn("num_particles: ", made_with["configuration"])
+        self.assertNotIn("num_particles", provenance.describe(pathlib.Path("."), pathlib.Path("/bin/track_icp"), None, 1)["configuration"])
+
     def test_numbers(self):
         self.assertEqual(report.number(1234.5, 1), "1,234.5")
         self.assertEqual(report.number(math.nan, 1), "–")
+        self.assertEqual(report.number(269838.98, 2), "2.7e+05")
         self.assertIn("never", report.number(math.inf, 1))
 
 
