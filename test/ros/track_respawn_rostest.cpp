@@ -7,7 +7,10 @@
 #include "rostest_main.h"
 #include "tracker_harness.h"
 
+#include <bond/Status.h>
+
 #include <fstream>
+#include <set>
 #include <string>
 
 namespace depth_object_tracker {
@@ -57,6 +60,16 @@ class Camera {
   ros::Time stamp_{1000.0};
 };
 
+/// Manager and loader have heard of each other: from now on each learns of the other's death.
+bool bondIsFormed() {
+  Recorder<bond::Status> statuses(ros::NodeHandle(), "/tracker_manager/bond");
+  return waitUntil([&] {
+    std::set<std::string> ends;
+    for (const auto& status : statuses.messages()) ends.insert(status->instance_id);
+    return ends.size() >= 2;
+  });
+}
+
 bool fileComes(const std::string& file) {
   return waitUntil([&] { return std::ifstream(file).good(); });
 }
@@ -68,6 +81,7 @@ TEST(TrackRespawn, TheTrackerOutlivesItsManager) {
   // Nobody gives a pose: `init` is search.
   ASSERT_TRUE(camera.comesToTrack()) << (camera.statuses().newest() ? camera.statuses().newest()->reason : "no status");
   ASSERT_TRUE(fileComes(last_pose_file));
+  ASSERT_TRUE(bondIsFormed());
   const int first = processOf("/tracker_manager");
   ASSERT_TRUE(killNode("/tracker_manager"));
   EXPECT_TRUE(waitUntil([&] { return processOf("/tracker_manager") > 0 && processOf("/tracker_manager") != first; }));
