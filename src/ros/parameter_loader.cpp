@@ -125,7 +125,7 @@ NodeletOptions loadNodeletOptions(const ros::NodeHandle& private_node) {
   read("mesh", "the path of a mesh", options.object.mesh);
   read("mesh_scale", "a number (metres per unit of the mesh)", options.object.mesh_scale);
   read("object_folders", "a list of folders", options.object_folders);
-  read("init_file", "the path of a JSON file", options.init_file);
+  read("init_file", "the path of a JSON file, or the word search", options.init_file);
   read("last_pose_file", "the path of a JSON file", options.last_pose_file);
   read("interactive_marker", "true or false", options.interactive_marker);
   read("image_transport", "the name of an image transport", options.image_transport);
@@ -142,7 +142,7 @@ NodeletOptions loadNodeletOptions(const ros::NodeHandle& private_node) {
   checkRange(private_node, "control_wait_s", options.control_wait_s, 1.0, options.problems);
   for (std::string* path :
        {&options.object.object_file, &options.object.mesh, &options.init_file, &options.last_pose_file}) {
-    *path = pathFrom(options.paths_from, *path);
+    if (*path != kSearch || path != &options.init_file) *path = pathFrom(options.paths_from, *path);
   }
   options.warnings = findUnreadParameters(private_node, known);
   return options;

@@ -9,11 +9,24 @@
 #include <std_msgs/UInt64.h>
 #include <boost/make_shared.hpp>
 
+#include <limits>
+
 namespace depth_object_tracker {
 namespace {
 
 bool isFinite(const TrackerResult& result) {
   return isValidPose(result.T_camera_object) && result.covariance.allFinite();
+}
+
+/// Nothing is known of any pixel: coarse, as there is nothing to see.
+OcclusionMap emptyOcclusionMap(const PinholeCamera& camera) {
+  constexpr int kFactor = 8;
+  OcclusionMap map;
+  map.grid = makeSamplingGrid(camera, kFactor);
+  const auto num_pixels =
+      static_cast<std::size_t>(map.grid.camera.width) * static_cast<std::size_t>(map.grid.camera.height);
+  map.p_occluded.assign(num_pixels, std::numeric_limits<float>::quiet_NaN());
+  return map;
 }
 
 }  // namespace
@@ -56,7 +69,7 @@ void ResultPublisher::publish(const FrameOutcome& outcome, const BuiltTracker& o
   if (outcome.is_new_estimate && outcome.hand && isFinite(outcome.result)) publishHand(*outcome.hand, outcome.header);
   if (!outcome.processed || !object.tracker) return;
   if (has_place) publishParticles(header, *object.tracker, outcome.output.T_target_source);
-  publishOcclusion(outcome.header, *object.tracker);
+  publishOcclusion(outcome, *object.tracker);
   publishOverlay(outcome, *object.tracker);
   if (isWanted(marker_) && (!outcome.result.has_pose || isFinite(outcome.result))) {
     marker_.publish(marker_builder_.build(outcome.header, outcome.result));
@@ -85,20 +98,19 @@ void ResultPublisher::publishParticles(const std_msgs::Header& header, const Obj
   const bool cloud = isWanted(particles_), poses = isWanted(particle_poses_), points = isWanted(particle_points_);
   if (!cloud && !poses && !points) return;
   ParticlePoses particles = tracker.particles();
-  if (particles.T_camera_object.empty()) return;
   for (Pose& pose : particles.T_camera_object) pose = T_target_camera * pose;
   if (cloud) particles_.publish(toParticleCloud(particles, header));
   if (poses) particle_poses_.publish(toPoseArray(particles, header));
   if (points) particle_points_.publish(toPointCloud(particles, header));
 }
 
-void ResultPublisher::publishOcclusion(const std_msgs::Header& header, const ObjectTracker& tracker) {
+void ResultPublisher::publishOcclusion(const FrameOutcome& outcome, const ObjectTracker& tracker) {
   const bool image = isWanted(occlusion_), info = isWanted(camera_info_);
   if (!image && !info) return;
-  const OcclusionMap map = tracker.occlusionMap();
-  if (map.p_occluded.empty()) return;
-  if (image) occlusion_.publish(toOcclusionImage(map, header));
-  if (info) camera_info_.publish(toCameraInfo(map.grid.camera, header));
+  OcclusionMap map = tracker.occlusionMap();
+  if (map.p_occluded.empty()) map = emptyOcclusionMap(outcome.camera);
+  if (image) occlusion_.publish(toOcclusionImage(map, outcome.header));
+  if (info) camera_info_.publish(toCameraInfo(map.grid.camera, outcome.header));
 }
 
 void ResultPublisher::publishOverlay(const FrameOutcome& outcome, const ObjectTracker& tracker) {

@@ -5,7 +5,7 @@ namespace depth_object_tracker {
 
 const char* const kNoInitialPoseReason =
     "no initial pose; drag the mesh in rviz to the object, call ~initialize, publish on ~initial_pose or set "
-    "~init_file";
+    "~init_file (a pose, or the word search)";
 
 void explainState(const std::string& initial_pose_problem, const std::vector<std::string>& findings,
                   TrackerResult& result) {

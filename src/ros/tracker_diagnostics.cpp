@@ -96,6 +96,9 @@ void describeLoad(const DiagnosticSnapshot& snapshot, Wrapper& status) {
     status.summary(Level::OK, format("%.1f ms a frame", 1e3 * static_cast<double>(tracker.frame_time_s)));
   }
   status.add("frame time [s]", tracker.frame_time_s);
+  status.add("of it proposal [s]", format("%.4f", snapshot.stage_times.proposal_s));
+  status.add("of it likelihood [s]", format("%.4f", snapshot.stage_times.render_likelihood_s));
+  status.add("of it resampling [s]", format("%.4f", snapshot.stage_times.resample_s));
   status.add("latency [s]", tracker.latency_s);
   status.add("output rate [Hz]", tracker.output_rate_hz);
   status.add("particles", tracker.num_particles);

@@ -84,13 +84,18 @@ void TrackerNodelet::start() {
   if (options.share_estimates) session.share(EstimateBoard::forImages(image_topic));
   const BuiltTracker built = buildFromParameters(options);
   session.setTracker(built);
+  bool has_last_pose = false;
   if (!options.last_pose_file.empty()) {
     pose_memory_ = std::make_unique<PoseMemory>(options.last_pose_file);
-    recallLastPose(options.last_pose_file, built.name, session);
+    has_last_pose = recallLastPose(options.last_pose_file, built.name, session);
   }
   const RobotOptions robot = loadRobotOptions(private_node);
   session.setRobot(buildRobot(robot, private_node, *tf_buffer_));
-  if (!options.init_file.empty()) applyInitFile(options.init_file, session);
+  if (options.init_file == kSearch) {
+    if (!has_last_pose) session.initialiseAnywhere(nullptr);
+  } else if (!options.init_file.empty()) {
+    applyInitFile(options.init_file, session);
+  }
   worker_ = std::make_unique<TrackerWorker>(getName(), std::move(session), ResultPublisher(private_node, options),
                                             options.control_wait_s);
   if (options.publish_diagnostics)
@@ -164,16 +169,17 @@ void TrackerNodelet::observe(const DiagnosticSnapshot& snapshot, const TrackerSe
   if (pose_memory_) pose_memory_->note(session.lastResult(), session.object().name);
 }
 
-/// Starts where the object was last time; ~init_file, where given, comes after and wins.
-void TrackerNodelet::recallLastPose(const std::string& file, const std::string& object_name, TrackerSession& session) {
+/// Starts where the object was last time, if that is known; ~init_file, where given, comes after and wins.
+bool TrackerNodelet::recallLastPose(const std::string& file, const std::string& object_name, TrackerSession& session) {
   std::string problem;
   InitialPose pose;
   const auto recalled = recallPose(file, object_name, problem);
   if (!problem.empty()) session.refuseInitialPose(problem);
-  if (!recalled) return;
+  if (!recalled) return false;
   pose.T_frame_object = *recalled;
   session.initialise(pose, nullptr);
   NODELET_INFO_STREAM(getName() << ": starting from the last pose of '" << object_name << "' in " << file);
+  return true;
 }
 
 void TrackerNodelet::savePose() {

@@ -79,8 +79,14 @@ bool TrackerSession::startWithoutPose(InitialisationCallback callback) {
   pending_pose_.reset();
   given_pose_.reset();
   initial_pose_problem_.clear();
-  if (!object_.tracker) abandon("there is no object to track: " + object_.problem);
-  return object_.tracker != nullptr;
+  if (!object_.tracker) {
+    abandon("there is no object to track: " + object_.problem);
+    return false;
+  }
+  last_result_ = TrackerResult();
+  last_result_.state = TrackerState::kInitializing;  // also before the first image
+  last_result_.reason = "the object is searched for from the next image on";
+  return true;
 }
 
 bool TrackerSession::needsPose() const {

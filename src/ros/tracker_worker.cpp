@@ -150,6 +150,7 @@ void TrackerWorker::tellObserver(const TrackerStatus& status) const {
   if (!observer_) return;
   DiagnosticSnapshot snapshot;
   snapshot.status = status;
+  snapshot.stage_times = session_.lastResult().time;
   snapshot.seconds_without_image = secondsSince(last_image_at_);
   snapshot.stamp_age_s = stamp_age_s_;
   snapshot.dropped_share = drop_watch_.droppedShare();

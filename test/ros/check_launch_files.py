@@ -75,12 +75,21 @@ def problems_of(launch, rows):
         yield f"the README lacks {sorted(set(names) - described)} and has {sorted(described - set(names))} too many"
 
 
+def check_views(folder):
+    """The demo's rviz and that of own cameras differ in where they look from, and in nothing else."""
+    lines = [(folder / name).read_text(encoding="utf-8").splitlines() for name in ("tracker.rviz", "camera.rviz")]
+    differing = {pair[0].split(":")[0].strip() for pair in zip(*lines) if pair[0] != pair[1]}
+    if len(lines[0]) != len(lines[1]) or differing != {"Fixed Frame", "Focal Point", "Pitch", "Yaw"}:
+        yield f"rviz/tracker.rviz and rviz/camera.rviz differ in more than their view: {sorted(differing)}"
+
+
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     launch_files = sorted(pathlib.Path(sys.argv[1]).resolve().glob("*.launch"))
     rows = readme_rows(pathlib.Path(sys.argv[2]))
     problems = [f"{launch.name}: {problem}" for launch in launch_files for problem in problems_of(launch, rows)]
+    problems += check_views(pathlib.Path(sys.argv[1]).resolve().parent / "rviz")
     problems += [f"README: there is no {name}" for name in rows if name not in {launch.name for launch in launch_files}]
     for problem in problems:
         print(problem)

@@ -4,11 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "faulty_camera.h"
+#include "node_process.h"
 #include "rostest_main.h"
-
-#include <XmlRpc.h>
-#include <ros/master.h>
-#include <ros/network.h>
 
 #include <csignal>
 #include <cstdio>
@@ -18,23 +15,6 @@ namespace {
 
 const char* const kTracker = "/tracker";
 constexpr int kSecond = 30;  // frames
-
-/// Process of a node, asked of the node itself; 0 when it does not answer.
-int processOf(const std::string& node) {
-  XmlRpc::XmlRpcValue arguments, response, payload;
-  arguments[0] = ros::this_node::getName();
-  arguments[1] = node;
-  if (!ros::master::execute("lookupNode", arguments, response, payload, false)) return 0;
-  std::string host;
-  std::uint32_t port = 0;
-  if (!ros::network::splitURI(static_cast<std::string>(payload), host, port)) return 0;
-  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port));
-  XmlRpc::XmlRpcValue question, answer;
-  question[0] = ros::this_node::getName();
-  const bool answered =
-      client.execute("getPid", question, answer) && answer.getType() == XmlRpc::XmlRpcValue::TypeArray;
-  return answered ? static_cast<int>(answer[2]) : 0;
-}
 
 class Faults : public testing::Test {
  protected:

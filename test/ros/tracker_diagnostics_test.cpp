@@ -52,7 +52,11 @@ TEST(TrackerDiagnostics, AllIsWell) {
 }
 
 TEST(TrackerDiagnostics, CarryTheNumbers) {
-  const DiagnosticSnapshot snapshot = goodSnapshot();
+  DiagnosticSnapshot snapshot = goodSnapshot();
+  snapshot.stage_times.proposal_s = 0.0021;
+  snapshot.stage_times.render_likelihood_s = 0.0012;
+  EXPECT_EQ(valueOf(describe(describeLoad, snapshot), "of it proposal [s]"), "0.0021");
+  EXPECT_EQ(valueOf(describe(describeLoad, snapshot), "of it likelihood [s]"), "0.0012");
   EXPECT_EQ(valueOf(describe(describeInput, snapshot), "input rate [Hz]"), "30");
   EXPECT_EQ(valueOf(describe(describeInput, snapshot), "stamp age [s]"), "0.030");
   EXPECT_EQ(valueOf(describe(describeInput, snapshot), "valid pixel share"), "0.9");

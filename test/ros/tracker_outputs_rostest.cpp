@@ -194,6 +194,24 @@ TEST_F(Outputs, NothingIsPublishedWhileUninitialized) {
   EXPECT_EQ(transforms.size(), 0u);
 }
 
+TEST_F(Outputs, WhatIsDrawnOfAnOlderPoseGoesAway) {
+  std_srvs::Trigger reset;
+  ASSERT_TRUE(ros::service::call(kName + "/reset", reset));
+  const auto particles = take<geometry_msgs::PoseArray>("particle_poses");
+  ASSERT_TRUE(particles);
+  EXPECT_TRUE(particles->poses.empty());
+  EXPECT_EQ(take<sensor_msgs::PointCloud2>("particle_points")->width, 0u);
+  const auto occlusion = take<sensor_msgs::Image>("occlusion");
+  ASSERT_TRUE(occlusion);
+  EXPECT_GT(occlusion->width, 0u);
+  ASSERT_EQ(occlusion->data.size(), std::size_t{4} * occlusion->width * occlusion->height);
+  for (std::size_t i = 0; i + 4 <= occlusion->data.size(); i += 4) {
+    float p_occluded;
+    std::memcpy(&p_occluded, &occlusion->data[i], 4);
+    EXPECT_TRUE(std::isnan(p_occluded));
+  }
+}
+
 /// The publisher of the nodelet, without the nodelet, to look inside.
 TEST(LazyOutputs, CostlyMessagesAreMadeOnlyForSubscribers) {
   ros::NodeHandle node("/lazy_outputs");

@@ -32,11 +32,14 @@ struct ObjectSource {
   double mesh_scale = 1.0;  ///< metres per unit of the mesh file
 };
 
+/// Value of ~init_file that names no file: the whole image is searched at the start.
+inline constexpr const char* kSearch = "search";
+
 struct NodeletOptions {
   ObjectSource object;
   std::string paths_from;  ///< folder that relative paths of files below are meant from; empty = the process's
   std::vector<std::string> object_folders;  ///< from which ~load_object may read, besides packages
-  std::string init_file;                    ///< JSON pose at start; empty = wait to be told
+  std::string init_file;                    ///< JSON pose at start, or kSearch; empty = wait to be told
   std::string last_pose_file;               ///< the last good pose is kept there and taken up again; empty = not
   bool interactive_marker = true;           ///< the mesh in rviz, to be dragged to the object
   std::string image_transport = "raw";

@@ -20,8 +20,9 @@ class ResultPublisher {
 
   void setObject(const BuiltTracker& object);
 
-  /// Pose, twist and tf, unless LOST or UNINITIALIZED; particles, pictures and markers for those who listen. Pose,
-  /// twist, tf and particles are told in the outcome's output frame, pictures and markers in the camera's.
+  /// Pose, twist and tf, unless LOST or UNINITIALIZED; particles, pictures and markers for those who listen, empty ones
+  /// while there is no pose: what is drawn of an older one goes away. Pose, twist, tf and particles are told in the
+  /// outcome's output frame, pictures and markers in the camera's.
   void publish(const FrameOutcome& outcome, const BuiltTracker& object);
 
   void publishStatus(const TrackerStatus& status);
@@ -38,7 +39,7 @@ class ResultPublisher {
   void publishPose(const std_msgs::Header& header, const TrackerResult& result, const std::string& child_frame);
   void publishHand(const HandReport& hand, const std_msgs::Header& header);
   void publishParticles(const std_msgs::Header& header, const ObjectTracker& tracker, const Pose& T_target_camera);
-  void publishOcclusion(const std_msgs::Header& header, const ObjectTracker& tracker);
+  void publishOcclusion(const FrameOutcome& outcome, const ObjectTracker& tracker);
   void publishOverlay(const FrameOutcome& outcome, const ObjectTracker& tracker);
 
   bool publish_tf_;

@@ -2,6 +2,8 @@
 // /diagnostics: input, tracking, load and self-check of one tracker, once a second.
 #pragma once
 
+#include "depth_object_tracker/tracker/tracker_result.h"
+
 #include <depth_object_tracker/TrackerStatus.h>
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
@@ -16,6 +18,7 @@ namespace depth_object_tracker {
 /// What the diagnostics are made of.
 struct DiagnosticSnapshot {
   TrackerStatus status;
+  StageTimes stage_times;  ///< of the last processed image
   double seconds_without_image = 0.0;
   std::optional<double> stamp_age_s;  ///< of the last image when it was taken up; nullopt: no image or no clock yet
   double dropped_share = 0.0;         ///< of the images of the last seconds

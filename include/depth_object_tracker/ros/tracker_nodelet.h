@@ -37,7 +37,7 @@ class TrackerNodelet : public nodelet::Nodelet {
   std::string findInfoTopic(const std::string& image_topic);
   void offerLiveParameters(const TrackerConfig& config);
   void observe(const DiagnosticSnapshot& snapshot, const TrackerSession& session);
-  void recallLastPose(const std::string& file, const std::string& object_name, TrackerSession& session);
+  bool recallLastPose(const std::string& file, const std::string& object_name, TrackerSession& session);
   void savePose();
   void startAt(const geometry_msgs::PoseWithCovarianceStamped& message, const std::string& source);
   void onDetectedPose(const geometry_msgs::PoseStampedConstPtr& message);
