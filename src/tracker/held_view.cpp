@@ -7,9 +7,9 @@
 namespace depth_object_tracker {
 namespace {
 
-constexpr double kLeastHiddenShare = 0.5, kMostHiddenShare = 0.97;
-constexpr double kStillHiddenShare = 0.25;  // once it was more
-constexpr int kBesideCells = 6;             // what hides the object goes on beside its outline
+constexpr double kLeastHiddenShare = 0.7, kMostHiddenShare = 0.97;
+constexpr double kStillHiddenShare = 0.6;  // once it was more
+constexpr int kBesideCells = 6;            // what hides the object goes on beside its outline
 constexpr float kNowhere = std::numeric_limits<float>::infinity();
 
 std::size_t cell(int row, int col, const PinholeCamera& camera) {
@@ -18,10 +18,11 @@ std::size_t cell(int row, int col, const PinholeCamera& camera) {
 
 }  // namespace
 
-bool HeldView::hidesMuch(const DepthImageView& depth, const SamplingGrid& grid, double reach_m) const {
+bool HeldView::hidesMuch(const std::vector<CoveredPixel>& covered, const DepthImageView& depth,
+                         const SamplingGrid& grid, double reach_m) const {
   const auto reach = static_cast<float>(reach_m);
   int measured = 0, hidden = 0;
-  for (const CoveredPixel& pixel : covered_) {
+  for (const CoveredPixel& pixel : covered) {
     const float z = depth.at(grid.fullRow(pixel.row), grid.fullCol(pixel.col));
     measured += z > 0.0f ? 1 : 0;
     hidden += z < pixel.depth - reach ? 1 : 0;
@@ -31,9 +32,9 @@ bool HeldView::hidesMuch(const DepthImageView& depth, const SamplingGrid& grid, 
 }
 
 /// The object's depth, and beside it the nearest that it has thereabouts.
-void HeldView::expect(const PinholeCamera& camera) {
+void HeldView::expect(const std::vector<CoveredPixel>& covered, const PinholeCamera& camera) {
   expected_.assign(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height), kNowhere);
-  for (const CoveredPixel& pixel : covered_) {
+  for (const CoveredPixel& pixel : covered) {
     const int row_end = std::min(camera.height, pixel.row + kBesideCells + 1);
     const int col_end = std::min(camera.width, pixel.col + kBesideCells + 1);
     for (int row = std::max(0, pixel.row - kBesideCells); row < row_end; ++row) {
@@ -43,17 +44,17 @@ void HeldView::expect(const PinholeCamera& camera) {
       }
     }
   }
-  for (const CoveredPixel& pixel : covered_) expected_[cell(pixel.row, pixel.col, camera)] = pixel.depth;
+  for (const CoveredPixel& pixel : covered) expected_[cell(pixel.row, pixel.col, camera)] = pixel.depth;
 }
 
 const std::vector<float>& HeldView::foreignReadings(const DepthImageView& depth, const SamplingGrid& grid,
                                                     const Pose& T_camera_object, double reach_m) {
-  covered_ = renderer_.render(T_camera_object, grid.camera);
-  if (!hidesMuch(depth, grid, reach_m)) {
+  const std::vector<CoveredPixel>& covered = renderer_.render(T_camera_object, grid.camera);
+  if (!hidesMuch(covered, depth, grid, reach_m)) {
     foreign_.clear();
     return foreign_;
   }
-  expect(grid.camera);
+  expect(covered, grid.camera);
   foreign_.assign(expected_.size(), 0.0f);
   for (int row = 0; row < grid.camera.height; ++row) {
     for (int col = 0; col < grid.camera.width; ++col) {

@@ -31,11 +31,11 @@ class HeldView {
   void reset() { foreign_.clear(); }
 
  private:
-  bool hidesMuch(const DepthImageView& depth, const SamplingGrid& grid, double reach_m) const;
-  void expect(const PinholeCamera& camera);
+  bool hidesMuch(const std::vector<CoveredPixel>& covered, const DepthImageView& depth, const SamplingGrid& grid,
+                 double reach_m) const;
+  void expect(const std::vector<CoveredPixel>& covered, const PinholeCamera& camera);
 
   DepthRenderer renderer_;
-  std::vector<CoveredPixel> covered_;
   std::vector<float> expected_, foreign_;
 };
 
