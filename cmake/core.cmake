@@ -52,6 +52,7 @@ add_library(depth_object_tracker_core SHARED
   src/tracker/estimate_board.cpp
   src/tracker/frame_budget.cpp
   src/tracker/frame_clock.cpp
+  src/tracker/held_view.cpp
   src/tracker/input_check.cpp
   src/tracker/live_parameters.cpp
   src/tracker/look_alikes.cpp

@@ -28,7 +28,7 @@ def parse(arguments):
     parser.add_argument("--experiments", default="abc", help="some of a, b and c (default abc)")
     parser.add_argument("--methods", help="comma-separated: ours, paper, beam, fiducials, kinematics, pcl (default: all there are)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="scenes at a time (default: the number of cores)")
-    parser.add_argument("--keep-scenes", action="store_true", help="keep the pictures (about 1 MB an image)")
+    parser.add_argument("--keep-scenes", action="store_true", help="keep the pictures (about 1 MB an image); later runs with the same settings use them again")
     parser.add_argument("--programs", type=pathlib.Path, help="folder of the programs (default: where they are built or installed)")
     parser.add_argument("--timeout", type=float, default=1800.0, help="longest time of one program [s] (default 1800)")
     options = parser.parse_args(arguments)

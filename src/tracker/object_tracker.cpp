@@ -8,6 +8,7 @@
 #include "depth_object_tracker/render/depth_renderer.h"
 #include "depth_object_tracker/tracker/doubt.h"
 #include "depth_object_tracker/tracker/frame_clock.h"
+#include "depth_object_tracker/tracker/held_view.h"
 #include "depth_object_tracker/tracker/live_parameters.h"
 #include "depth_object_tracker/tracker/look_alikes.h"
 #include "depth_object_tracker/tracker/pose_search.h"
@@ -65,6 +66,9 @@ constexpr double kBlindBelowVisibleFraction = 0.04;
 // With less of the object in view its pose counts as not seen.
 constexpr double kSeenAboveVisibleFraction = 0.3;
 
+// Of an object in a robot's hand: error of the mesh and the sensor, and how fast it may slip.
+constexpr double kHeldReachM = 0.004, kHeldSpeedM_s = 0.1;
+
 bool fitsWell(const PoseAssessment& assessment) {
   constexpr double kScore = 0.8;
   return assessment.visibleShare() > kSeenAboveVisibleFraction && assessment.achieved > kScore * assessment.expected;
@@ -114,6 +118,7 @@ class ObjectTracker::Implementation {
         status(config.status),
         slip(config.slip),
         search(config.filter.seed),
+        held_view(object.mesh),
         look_alikes(findLookAlikes(object.mesh, centre_object, aboutCentre(object.symmetries, centre_object))),
         reacquisition(
             std::make_unique<PoseFinder>(shape, object.mesh, diameter_m, config.pixel, config.filter.seed, pool)) {}
@@ -142,6 +147,7 @@ class ObjectTracker::Implementation {
   SlipEstimator slip;
   CovarianceCalibration calibration;
   PoseSearch search;
+  HeldView held_view;
   Hypotheses hypotheses;  // of this image
   LookAlikeCheck look_alikes;
   Reacquisition reacquisition;
@@ -157,6 +163,7 @@ class ObjectTracker::Implementation {
   double initialising_s = 0.0;             // since an initial pose that does not fit yet
   std::optional<ProcessStep> step_in_use;  // of the last image that was looked at
   bool follows_hand = false;
+  bool is_hidden_in_hand = false;  // most of it, in this image: the robot's motion says more than what little is seen
   Vector6d hand_velocity = Vector6d::Zero();  // of the centre as the robot has it; zero when it is not followed
   FrameClock clock;
   bool is_given = false;                      // the pose, since the last image, by hand or by a robot
@@ -171,6 +178,9 @@ class ObjectTracker::Implementation {
  private:
   bool checkInput(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s);
   FrameClock::Step advanceClock(double stamp_s);
+  /// What hides most of an object in a robot's hand is not taken for it.
+  void setAsideWhatIsNotHeld(const DepthImageView& depth, const SamplingGrid& grid, double dt_s,
+                             const std::optional<ControlInput>& control);
   double projectedPixels(const PinholeCamera& camera) const;
   double diffusionScale() const;
   /// The covariance as the image bears it out.
@@ -220,6 +230,7 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
     likelihood.setOccluders(known_occluders->render(grid.camera));
     likelihood.setTakenSurfaces(known_occluders->renderSeen(grid.camera));
   }
+  setAsideWhatIsNotHeld(depth, grid, time.dt_s, control);
 
   if (is_blind && reacquire(depth, time.dt_s)) is_blind = false;
   const bool was_given = is_given && initial_variances && mayReacquire();
@@ -314,6 +325,27 @@ bool ObjectTracker::Implementation::checkInput(const DepthImageView& depth, cons
   return true;
 }
 
+void ObjectTracker::Implementation::setAsideWhatIsNotHeld(const DepthImageView& depth, const SamplingGrid& grid,
+                                                          double dt_s, const std::optional<ControlInput>& control) {
+  const bool was_hidden = is_hidden_in_hand;
+  is_hidden_in_hand = false;
+  if (!follows_hand || is_blind || initial_variances || !control || !control->isFollowed() || !mayReacquire()) {
+    held_view.reset();
+    return;
+  }
+  const ProcessStep step(config.process, dt_s, control, centre_object, 1.0);
+  const Pose carried = perturb(last_mean.mean, step.controlDisplacement(last_mean.mean));
+  const Vector6d stddevs = last_mean.covariance.diagonal().cwiseSqrt();
+  const double surface_stddev_m =
+      std::hypot(stddevs.head<3>().maxCoeff(), shape.radius_m * stddevs.tail<3>().maxCoeff());
+  const double reach_m = kHeldReachM + 3.0 * surface_stddev_m + (was_hidden ? 0.0 : kHeldSpeedM_s * dt_s);
+  const std::vector<float>& foreign = held_view.foreignReadings(depth, grid, toObject(carried), reach_m);
+  is_hidden_in_hand = !foreign.empty();
+  if (!is_hidden_in_hand) return;
+  likelihood.setTakenSurfaces(foreign);
+  filter.stopMotion();  // in the hand: a slip cannot be told from what so little shows
+}
+
 double ObjectTracker::Implementation::projectedPixels(const PinholeCamera& camera) const {
   constexpr int kCoarse = 4;
   DepthRenderer renderer(object.mesh);
@@ -347,9 +379,11 @@ ProcessStep ObjectTracker::Implementation::makeStep(double dt_s, const std::opti
     initial_variances.reset();
     return step;
   }
-  ProcessStep step(config.process, dt_s, control, centre_object, diffusionScale(), slip.noiseScale());
+  ProcessStep step(config.process, dt_s, control, centre_object, diffusionScale(),
+                   is_hidden_in_hand ? config.process.hidden_diffusion_scale : slip.noiseScale());
+  if (is_hidden_in_hand) step.excludeSuddenMotion();
   followHand(step, control && control->isFollowed(), dt_s);
-  if (mayReacquire()) {
+  if (mayReacquire() && !is_hidden_in_hand) {
     search.around(last_mean.mean, searchVariances(kPoorFitReachS), kHypotheses, hypotheses.if_poor);
   }
   return step;
@@ -374,6 +408,7 @@ bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, doubl
 
 Doubt::Look ObjectTracker::Implementation::whereToLook() const {
   if (!mayReacquire() || initial_variances || status.state() != TrackerState::kTracking) return Doubt::Look::kNowhere;
+  if (is_hidden_in_hand) return Doubt::Look::kNowhere;
   if (reacquired_s < kDoubtfulAfterFindS) return Doubt::Look::kAround;
   return doubt.look();
 }

@@ -36,6 +36,15 @@ if(WITH_ROBOT)
   target_compile_definitions(kinematics_benchmark PRIVATE PROJECT_SOURCE_FOLDER="${PROJECT_SOURCE_DIR}")
 endif()
 
+if(TARGET depth_object_tracker_robot AND TARGET depth_object_tracker_simulator)
+  add_executable(robot_occluder_ablation
+    ${CMAKE_CURRENT_LIST_DIR}/robot_occluder_ablation.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/../sequence/occluder_trial.cpp)
+  target_link_libraries(robot_occluder_ablation PRIVATE
+    depth_object_tracker_simulator depth_object_tracker_robot depth_object_tracker_warnings CLI11::CLI11)
+  target_compile_definitions(robot_occluder_ablation PRIVATE PROJECT_SOURCE_FOLDER="${PROJECT_SOURCE_DIR}")
+endif()
+
 if(WITH_ROS)
   set(benchmark_destination ${CATKIN_PACKAGE_BIN_DESTINATION})
 else()
@@ -44,6 +53,9 @@ endif()
 install(TARGETS engine_benchmark RUNTIME DESTINATION ${benchmark_destination})
 if(WITH_ROBOT)
   install(TARGETS kinematics_benchmark RUNTIME DESTINATION ${benchmark_destination})
+endif()
+if(TARGET robot_occluder_ablation)
+  install(TARGETS robot_occluder_ablation RUNTIME DESTINATION ${benchmark_destination})
 endif()
 if(benchmark_FOUND)
   install(TARGETS stage_benchmarks RUNTIME DESTINATION ${benchmark_destination})

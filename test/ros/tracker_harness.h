@@ -8,6 +8,7 @@
 #include <depth_object_tracker/InitializeTracker.h>
 #include <depth_object_tracker/TrackerStatus.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <gtest/gtest.h>
 #include <image_transport/image_transport.h>
 #include <nodelet/loader.h>
 #include <ros/ros.h>

@@ -15,7 +15,7 @@ add_tracker_test(tracker_sequence_tests
 
 if(TARGET depth_object_tracker_robot)
   add_tracker_test(robot_occluder_test
-    SOURCES sequence/robot_occluder_test.cpp
+    SOURCES sequence/occluder_trial.cpp sequence/robot_occluder_test.cpp
     LIBRARIES depth_object_tracker_simulator depth_object_tracker_robot)
   add_tracker_test(held_occlusion_test
     SOURCES sequence/held_occlusion_test.cpp sequence/scripted_scene.cpp
