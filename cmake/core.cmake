@@ -61,9 +61,9 @@ add_library(depth_object_tracker_core SHARED
   src/tracker/object_tracker.cpp
   src/tracker/oriented_points.cpp
   src/tracker/other_objects.cpp
+  src/tracker/pair_votes.cpp
   src/tracker/parameter_binding.cpp
   src/tracker/plane_finder.cpp
-  src/tracker/pair_votes.cpp
   src/tracker/point_pairs.cpp
   src/tracker/pose_evidence.cpp
   src/tracker/pose_finder.cpp

@@ -38,8 +38,8 @@ endif()
 
 if(TARGET depth_object_tracker_robot AND TARGET depth_object_tracker_simulator)
   add_executable(robot_occluder_ablation
-    ${CMAKE_CURRENT_LIST_DIR}/robot_occluder_ablation.cpp
-    ${CMAKE_CURRENT_LIST_DIR}/../sequence/occluder_trial.cpp)
+    ${CMAKE_CURRENT_LIST_DIR}/../sequence/occluder_trial.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/robot_occluder_ablation.cpp)
   target_link_libraries(robot_occluder_ablation PRIVATE
     depth_object_tracker_simulator depth_object_tracker_robot depth_object_tracker_warnings CLI11::CLI11)
   target_compile_definitions(robot_occluder_ablation PRIVATE PROJECT_SOURCE_FOLDER="${PROJECT_SOURCE_DIR}")

@@ -1,11 +1,11 @@
 # In a build with a sanitizer the launch files' managers have it too: roslaunch finds the devel space's program `nodelet` before
 # Debian's.
-if(NOT SANITIZE OR NOT TARGET depth_object_tracker_ros)
-  return()
+if(SANITIZE AND TARGET depth_object_tracker_ros)
+  #catkin_lint: skip
+  find_program(SYSTEM_NODELET_PROGRAM nodelet PATHS ${nodelet_DIR}/../../../lib/nodelet NO_DEFAULT_PATH)
+  add_executable(sanitized_nodelet_manager sanitizers/nodelet_manager.cpp)
+  target_link_libraries(sanitized_nodelet_manager PRIVATE depth_object_tracker_ros depth_object_tracker_warnings)
+  target_compile_definitions(sanitized_nodelet_manager PRIVATE SYSTEM_NODELET_PROGRAM="${SYSTEM_NODELET_PROGRAM}")
+  set_target_properties(sanitized_nodelet_manager PROPERTIES
+    OUTPUT_NAME nodelet RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/nodelet)
 endif()
-find_program(SYSTEM_NODELET_PROGRAM nodelet PATHS ${nodelet_DIR}/../../../lib/nodelet NO_DEFAULT_PATH)
-add_executable(sanitized_nodelet_manager sanitizers/nodelet_manager.cpp)
-target_link_libraries(sanitized_nodelet_manager PRIVATE depth_object_tracker_ros depth_object_tracker_warnings)
-target_compile_definitions(sanitized_nodelet_manager PRIVATE SYSTEM_NODELET_PROGRAM="${SYSTEM_NODELET_PROGRAM}")
-set_target_properties(sanitized_nodelet_manager PROPERTIES
-  OUTPUT_NAME nodelet RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/nodelet)
