@@ -76,6 +76,9 @@ add_library(depth_object_tracker_core SHARED
   src/tracker/tracker_config_file.cpp
   src/tracker/tracker_parameters.cpp
   src/tracker/tracker_result.cpp
+  src/tracker/tracking_frame.cpp
+  src/tracker/tracking_held.cpp
+  src/tracker/tracking_search.cpp
 )
 target_include_directories(depth_object_tracker_core
   # Headers that refuse to compile stand before the system's: a ROS include in the core is an error even where ROS lives in /usr/include.

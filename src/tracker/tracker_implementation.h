@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What an ObjectTracker is made of, and the steps of a frame. Three files: the frame itself (tracking_frame.cpp), other
+// poses that the object may be at (tracking_search.cpp), an object in a robot's hand (tracking_held.cpp).
+#pragma once
+
+#include "depth_object_tracker/filter/depth_likelihood.h"
+#include "depth_object_tracker/filter/particle_filter.h"
+#include "depth_object_tracker/model/slip_estimator.h"
+#include "depth_object_tracker/tracker/doubt.h"
+#include "depth_object_tracker/tracker/frame_clock.h"
+#include "depth_object_tracker/tracker/held_view.h"
+#include "depth_object_tracker/tracker/look_alikes.h"
+#include "depth_object_tracker/tracker/object_tracker.h"
+#include "depth_object_tracker/tracker/pose_search.h"
+#include "depth_object_tracker/tracker/reacquisition.h"
+#include "depth_object_tracker/tracker/resolution.h"
+#include "depth_object_tracker/tracker/status_monitor.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace depth_object_tracker {
+
+class ObjectTracker::Implementation {
+ public:
+  /// Throws std::invalid_argument when the object or the configuration cannot be used.
+  Implementation(ObjectModel object_model, const TrackerConfig& tracker_config);
+
+  TrackerResult update(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s,
+                       const std::optional<ControlInput>& control, KnownOccluders* occluders);
+
+  Pose toObject(const Pose& T_camera_centre) const {
+    Pose T_camera_object = T_camera_centre;
+    T_camera_object.translation() -= T_camera_centre.linear() * centre_object;
+    return T_camera_object;
+  }
+  Pose toCentre(const Pose& T_camera_object) const { return T_camera_object * Eigen::Translation3d(centre_object); }
+
+  static constexpr double kLongAgoS = 1e6;
+  // With less of the object in view its pose counts as not seen.
+  static constexpr double kSeenAboveVisibleFraction = 0.3;
+
+  ObjectModel object;
+  TrackerConfig config;
+  Eigen::Vector3d centre_object;
+  double diameter_m;
+  ObjectShape shape;
+  std::shared_ptr<WorkerPool> pool;
+  DepthLikelihood likelihood;
+  ParticleFilter filter;
+  Symmetries symmetries;  // about the centre
+  ResolutionChooser resolution;
+  StatusMonitor status;
+  SlipEstimator slip;
+  CovarianceCalibration calibration;
+  PoseSearch search;
+  HeldView held_view;
+  Hypotheses hypotheses;  // of this image
+  LookAlikeCheck look_alikes;
+  Reacquisition reacquisition;
+  double unseen_s = 0.0;       // since the object was last seen well
+  PoseStatistics last_mean;    // of the centre
+  bool is_anywhere = false;    // nothing is known of the pose yet
+  bool is_on_table = false;    // but that the object rests on a plane
+  bool is_blind = false;       // nothing of the object was seen in the last image, or not where it was thought to be
+  double moved_s = kLongAgoS;  // since the filter was started anew, at a pose that was searched
+  double reacquired_s = kLongAgoS;  // since the object was found again
+  Doubt doubt;
+  double since_learnt_s = kLongAgoS;       // how well the object fits where it is seen
+  double initialising_s = 0.0;             // since an initial pose that does not fit yet
+  std::optional<ProcessStep> step_in_use;  // of the last image that was looked at
+  bool follows_hand = false;
+  bool is_hidden_in_hand = false;  // most of it, in this image: the robot's motion says more than what little is seen
+  Vector6d hand_velocity = Vector6d::Zero();  // of the centre as the robot has it; zero when it is not followed
+  FrameClock clock;
+  bool is_given = false;                      // the pose, since the last image, by hand or by a robot
+  std::vector<Pose> around_given;             // at which the object may be instead
+  std::optional<Vector6d> initial_variances;  // set by initialise, used by the next image
+  double full_resolution_pixels = 0.0;        // that the object covers
+  double effort = 1.0;                        // of what is configured
+  KnownOccluders* known_occluders = nullptr;  // during an update
+  PinholeCamera camera_in_use;
+  TrackerResult result;
+
+ private:
+  bool checkInput(const DepthImageView& depth, const PinholeCamera& camera, double stamp_s);
+  FrameClock::Step advanceClock(double stamp_s);
+  /// What hides most of an object in a robot's hand is not taken for it.
+  void setAsideWhatIsNotHeld(const DepthImageView& depth, const SamplingGrid& grid, double dt_s,
+                             const std::optional<ControlInput>& control);
+  double projectedPixels(const PinholeCamera& camera) const;
+  double diffusionScale() const;
+  /// The covariance as the image bears it out.
+  void calibrate(FilterEstimate& estimate, double dt_s);
+  /// The process into this image, and poses to look at besides: at the start, while little is seen, after a loss.
+  ProcessStep makeStep(double dt_s, const std::optional<ControlInput>& control);
+  /// One frame of the filter.
+  FilterEstimate look(double dt_s, const std::optional<ControlInput>& control);
+  /// One frame without a measurement.
+  FilterEstimate hold(double dt_s, const std::optional<ControlInput>& control);
+  PoseAssessment assess(const FilterEstimate& estimate);
+  static bool fits(const PoseAssessment& assessment);
+  bool seesNothing(const PoseAssessment& assessment) const;
+  /// The paper's filter neither searches nor holds.
+  bool mayReacquire() const { return config.filter.proposal == Proposal::kInformed; }
+  /// Starts the filter anew where the object is seen. @return false when it is not.
+  bool reacquire(const DepthImageView& depth, double dt_s);
+  /// The estimate may be at a neighbouring mode: the image does not fit well, or the object was only just found.
+  Doubt::Look whereToLook() const;
+  bool moveToBetterPose(const DepthImageView& depth, const Pose& T_camera_centre);
+  void startAt(const Pose& T_camera_centre);
+  /// Moves to a pose that looks alike but explains the image better.
+  void turnToLookAlike(FilterEstimate& estimate, PoseAssessment& assessment, double dt_s);
+  /// Particles' velocities are relative to the hand while it is followed: hand over at grasp and release.
+  void followHand(const ProcessStep& step, bool follows, double dt_s);
+  void estimateSlip(const FilterEstimate& estimate, double dt_s);
+  void rememberFit(const FilterEstimate& estimate, double dt_s);
+  /// From time to time, where the object is surely seen.
+  void learnFit(const DepthImageView& depth, double dt_s);
+  void writeEstimate(const FilterEstimate& estimate);
+  void writeStatus(const PoseAssessment& assessment);
+};
+
+}  // namespace depth_object_tracker

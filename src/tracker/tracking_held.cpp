@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tracker/tracker_implementation.h"
+
+#include <cmath>
+
+namespace depth_object_tracker {
+namespace {
+
+// Of an object in a robot's hand: error of the mesh and the sensor, and how fast it may slip.
+constexpr double kHeldReachM = 0.004, kHeldSpeedM_s = 0.1;
+
+}  // namespace
+
+void ObjectTracker::Implementation::setAsideWhatIsNotHeld(const DepthImageView& depth, const SamplingGrid& grid,
+                                                          double dt_s, const std::optional<ControlInput>& control) {
+  const bool was_hidden = is_hidden_in_hand;
+  is_hidden_in_hand = false;
+  if (!follows_hand || is_blind || initial_variances || !control || !control->isFollowed() || !mayReacquire()) {
+    held_view.reset();
+    return;
+  }
+  const ProcessStep step(config.process, dt_s, control, centre_object, 1.0);
+  const Pose carried = perturb(last_mean.mean, step.controlDisplacement(last_mean.mean));
+  const Vector6d stddevs = last_mean.covariance.diagonal().cwiseSqrt();
+  const double surface_stddev_m =
+      std::hypot(stddevs.head<3>().maxCoeff(), shape.radius_m * stddevs.tail<3>().maxCoeff());
+  const double reach_m = kHeldReachM + 3.0 * surface_stddev_m + (was_hidden ? 0.0 : kHeldSpeedM_s * dt_s);
+  const std::vector<float>& foreign = held_view.foreignReadings(depth, grid, toObject(carried), reach_m);
+  is_hidden_in_hand = !foreign.empty();
+  if (!is_hidden_in_hand) return;
+  likelihood.setTakenSurfaces(foreign);
+  filter.stopMotion();  // in the hand: a slip cannot be told from what so little shows
+}
+
+void ObjectTracker::Implementation::followHand(const ProcessStep& step, bool follows, double dt_s) {
+  const Vector6d before = hand_velocity;
+  hand_velocity.setZero();
+  if (follows && dt_s > 0.0) hand_velocity = step.controlDisplacement(last_mean.mean) / dt_s;
+  if (follows != follows_hand) {
+    filter.shiftVelocities(before - hand_velocity);
+    slip.reset();
+  }
+  follows_hand = follows;
+}
+
+void ObjectTracker::Implementation::estimateSlip(const FilterEstimate& estimate, double dt_s) {
+  result.slip.reset();
+  if (!follows_hand || dt_s <= 0.0 || is_blind || !step_in_use) return;
+  HandStep in_hand;
+  const Pose carried = perturb(last_mean.mean, step_in_use->controlDisplacement(last_mean.mean));
+  in_hand.residual = difference(estimate.pose.mean, carried);
+  in_hand.pose_variances = estimate.pose.covariance.diagonal();
+  in_hand.hand_velocity = hand_velocity;
+  in_hand.R_camera_object = estimate.pose.mean.linear();
+  in_hand.dt_s = dt_s;
+  result.slip = slip.update(in_hand);
+  const Eigen::Vector3d origin_from_centre = -(in_hand.R_camera_object * centre_object);
+  result.slip->relative_twist.head<3>() += result.slip->relative_twist.tail<3>().cross(origin_from_centre);
+  result.slip->covariance = transportCovariance(result.slip->covariance, origin_from_centre);
+}
+
+}  // namespace depth_object_tracker
