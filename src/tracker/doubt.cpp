@@ -12,7 +12,7 @@ constexpr double kPlainSight = 0.6;
 constexpr double kBadScore = 0.8, kBriefS = 0.05;
 // After the object was gone from where it was, what fits next may be something else beside it.
 constexpr double kShakingScore = 0.6, kSomethingVisible = 0.04, kShakenForS = 0.6, kLooksWhileShakenS = 0.2;
-constexpr double kPoorScoreOfLittle = 0.7, kPoorForS = 0.3;  // little that is seen often fits a little worse
+constexpr double kPoorScoreOfLittle = 0.8, kPoorForS = 0.2;  // little that is seen often fits a little worse
 constexpr double kLookAroundForS = 2.0;                      // at every image; in vain: from time to time
 constexpr double kShortestIntervalS = 0.3, kLongestIntervalS = 8.0;
 
@@ -23,8 +23,9 @@ void Doubt::update(double score, double visible_fraction, bool is_seen, double d
   const bool little_fits = !is_seen && score < kPoorScoreOfLittle && poor_s_ > kPoorForS;
   is_poor_ = (is_seen && score < kPoorScore) || little_fits;
   // What is half hidden may fit badly and be right, and the image is full of arms.
-  is_mediocre_ = is_seen && ((visible_fraction > kPlainSight && score < kMediocreScore) ||
-                             (poor_s_ > kBriefS && score < kBadScore));
+  const bool in_plain_sight = visible_fraction > kPlainSight && score < kMediocreScore;
+  const bool is_bad = poor_s_ > kBriefS && score < kBadScore;
+  is_mediocre_ = (is_seen && (in_plain_sight || is_bad)) || little_fits;
   const bool is_contradicted = score < kShakingScore && visible_fraction > kSomethingVisible;
   shaken_s_ = is_contradicted ? 0.0 : shaken_s_ + dt_s;
   is_seen_ = is_seen;

@@ -83,7 +83,8 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
   self.filter.initialise(T_camera_centre);
   self.last_mean = PoseStatistics();
   self.last_mean.mean = T_camera_centre;
-  self.unseen_s = 0.0;
+  self.is_seen = false;
+  self.seen_s = self.unseen_s = 0.0;
   self.doubt.restart();
   self.initialising_s = 0.0;
   self.is_blind = self.is_anywhere = self.is_on_table = false;

@@ -59,6 +59,8 @@ class ObjectTracker::Implementation {
   Hypotheses hypotheses;  // of this image
   LookAlikeCheck look_alikes;
   Reacquisition reacquisition;
+  bool is_seen = false;        // well, in the last image
+  double seen_s = 0.0;         // for how long, without a break
   double unseen_s = 0.0;       // since the object was last seen well
   PoseStatistics last_mean;    // of the centre
   bool is_anywhere = false;    // nothing is known of the pose yet

@@ -195,7 +195,9 @@ ProcessStep ObjectTracker::Implementation::makeStep(double dt_s, const std::opti
 void ObjectTracker::Implementation::rememberFit(const FilterEstimate& estimate, double dt_s) {
   const bool seen = status.state() == TrackerState::kTracking && !status.misfit() &&
                     status.visibleFraction() >= kSeenAboveVisibleFraction;
+  is_seen = seen;
   unseen_s = seen ? 0.0 : unseen_s + dt_s;
+  seen_s = seen ? seen_s + dt_s : 0.0;
   reacquired_s += dt_s;
   // A pose that had to be searched is not one that was followed.
   moved_s = status.state() == TrackerState::kInitializing ? 0.0 : moved_s + dt_s;

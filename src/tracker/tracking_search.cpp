@@ -91,9 +91,11 @@ void ObjectTracker::Implementation::startAt(const Pose& T_camera_centre) {
 }
 
 void ObjectTracker::Implementation::learnFit(const DepthImageView& depth, double dt_s) {
-  constexpr double kEveryS = 0.5, kSureAfterS = 1.0;
+  constexpr double kEveryS = 0.5, kSureAfterS = 1.0, kFits = 0.8;
   since_learnt_s += dt_s;
-  if (!mayReacquire() || unseen_s > 0.0 || moved_s < kSureAfterS || since_learnt_s < kEveryS) return;
+  // What fits badly from the start may be a bad mesh or a wrong pose; which, time tells.
+  const bool is_sure = seen_s > kSureAfterS || status.score() > kFits * reacquisition.usualScore();
+  if (!mayReacquire() || !is_seen || !is_sure || moved_s < kSureAfterS || since_learnt_s < kEveryS) return;
   since_learnt_s = 0.0;
   reacquisition.learn(depth, camera_in_use, last_mean.mean);
 }

@@ -30,7 +30,7 @@ class Doubt {
   bool is_seen_ = false;
   double poor_s_ = 0.0;
   double shaken_s_ = 1e6;  // since the image contradicted the pose
-  double since_look_s_ = 0.0;
+  double since_look_s_ = 1e6;
   double interval_s_ = 0.3;
 };
 
