@@ -201,7 +201,7 @@ std::optional<Pose> PoseFinder::drawPair(std::uint64_t number) const {
   const OrientedPoint& first =
       image_points_[static_cast<std::size_t>(uniform(0) * static_cast<double>(image_points_.size()))];
   const Eigen::Vector2d pixel = camera_.project(first.point);
-  const double reach_px = camera_.fx * pairs_.mostDistanceM() / first.point.z();
+  const double reach_px = reachPx(first);
   for (std::uint32_t k = 0; k < kTries; ++k) {
     const auto at = [&](std::uint32_t index) { return uniform(1 + 7 * k + index); };
     const OrientedPoint* second = neighbourOf(pixel, reach_px * at(1), 2.0 * M_PI * at(0));
@@ -210,6 +210,12 @@ std::optional<Pose> PoseFinder::drawPair(std::uint64_t number) const {
     if (pose) return pose;
   }
   return std::nullopt;
+}
+
+/// How far from a point of the object another may be seen; right before the lens not beyond the image.
+double PoseFinder::reachPx(const OrientedPoint& point) const {
+  return std::min(camera_.fx * pairs_.mostDistanceM() / point.point.z(),
+                  static_cast<double>(depth_.width + depth_.height));
 }
 
 /// The image's point at a distance and in a direction from a pixel. @return null where there is none.
@@ -247,10 +253,12 @@ void PoseFinder::letNeighboursVote(std::uint64_t number, PairVotes& votes) const
   votes.start(reference);
   const Eigen::Vector2d pixel = camera_.project(reference.point) / step_px_;
   const int rows = depth_.height / step_px_ + 1, cols = depth_.width / step_px_ + 1;
-  const int reach = static_cast<int>(camera_.fx * pairs_.mostDistanceM() / reference.point.z()) / step_px_;
+  const int reach = static_cast<int>(reachPx(reference)) / step_px_;
+  constexpr int kMostReach = 70;  // some 20,000 voters at most, however near the reference is
+  const int stride = 1 + reach / (kMostReach + 1);
   const int row = static_cast<int>(pixel.y()), col = static_cast<int>(pixel.x());
-  for (int r = std::max(0, row - reach); r <= std::min(rows - 1, row + reach); ++r) {
-    for (int c = std::max(0, col - reach); c <= std::min(cols - 1, col + reach); ++c) {
+  for (int r = std::max(0, row - reach); r <= std::min(rows - 1, row + reach); r += stride) {
+    for (int c = std::max(0, col - reach); c <= std::min(cols - 1, col + reach); c += stride) {
       const int other = point_at_[static_cast<std::size_t>(r * cols + c)];
       if (other < 0) continue;
       constexpr std::uint32_t kNumbers = 5;

@@ -81,6 +81,7 @@ class PoseFinder {
   std::optional<Pose> drawPair(std::uint64_t number) const;
   std::vector<Pose> drawVotes(int references);
   void letNeighboursVote(std::uint64_t number, PairVotes& votes) const;
+  double reachPx(const OrientedPoint& point) const;
   const OrientedPoint* neighbourOf(const Eigen::Vector2d& pixel, double radius_px, double turn_rad) const;
   Pose drawAnywhere(std::uint64_t number) const;
   template <typename Draw>
