@@ -24,7 +24,7 @@ double boundingRadius(const TriangleMesh& mesh, const Eigen::Vector3d& centre) {
 /// size on the object. Noise averages out over the pixels, the error of a mesh much less.
 /// @param cell_m [m] side of a grid cell at the object.
 double allowedLevelError(double depth_m, double cell_m, const PixelModelConfig& config) {
-  constexpr double kShareOfNoise = 0.1, kShareOfCell = 0.03;
+  constexpr double kShareOfNoise = 0.07, kShareOfCell = 0.03;
   return std::min(kShareOfNoise * surfaceNoiseStddev(depth_m, config), kShareOfCell * cell_m);
 }
 

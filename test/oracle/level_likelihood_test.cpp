@@ -75,17 +75,35 @@ class LevelLikelihood : public testing::TestWithParam<Case> {
     }
   }
 
-  /// Highest point near a start, damped Gauss-Newton with a wide prior for what the image does not tell.
-  static Pose mode(DepthLikelihood& likelihood, const Pose& start) {
-    Pose pose = start;
+  /// Highest point on the way from a start, damped Gauss-Newton with a wide prior for what the image does not tell.
+  static Pose climb(DepthLikelihood& likelihood, const Pose& start) {
+    Pose pose = start, best = start;
+    double highest = -1e9;
     for (int step = 0; step < 25; ++step) {
       const Linearisation model = likelihood.linearise(pose, 0.0, 0);
       Matrix6d information = model.information;
       information.diagonal().head<3>().array() += 25.0;  // 1 / (0.2 m)^2
       information.diagonal().tail<3>().array() += 0.1;
       pose = perturb(pose, 0.7 * information.ldlt().solve(model.gradient));
+      const double log_likelihood = likelihood.logLikelihood(pose, 0);
+      if (log_likelihood <= highest) continue;
+      highest = log_likelihood;
+      best = pose;
     }
-    return pose;
+    return best;
+  }
+
+  /// How far two likelihoods' modes are apart [m]: for each the higher one of the maxima that climbs from two starts
+  /// reach.
+  static double modeShift(DepthLikelihood& one, DepthLikelihood& other, const Pose& truth) {
+    const Pose from_truth = climb(one, truth), other_from_truth = climb(other, truth);
+    const Pose mode = higher(one, from_truth, climb(one, other_from_truth));
+    const Pose other_mode = higher(other, other_from_truth, climb(other, from_truth));
+    return (mode.translation() - other_mode.translation()).norm();
+  }
+
+  static Pose higher(DepthLikelihood& likelihood, const Pose& one, const Pose& other) {
+    return likelihood.logLikelihood(one, 0) >= likelihood.logLikelihood(other, 0) ? one : other;
   }
 
   PixelModelConfig pixel_config_;
@@ -117,8 +135,8 @@ TEST_P(LevelLikelihood, PosesKeepTheirOrderAndTheModeItsPlace) {
     const Pose truth = randomPose();
     show(truth);
     ASSERT_LT(simplified_->renderedTriangles(), full_->renderedTriangles()) << "nothing is simplified";
-    const Pose pose = mode(*full_, truth);
-    shifts_m.push_back((mode(*simplified_, truth).translation() - pose.translation()).norm());
+    const Pose pose = climb(*full_, truth);
+    shifts_m.push_back(modeShift(*full_, *simplified_, truth));
     std::vector<double> with_mesh, with_level;
     for (int k = 0; k < kPosesPerTrial; ++k) {
       Vector6d displacement;
@@ -140,8 +158,8 @@ TEST_P(LevelLikelihood, PosesKeepTheirOrderAndTheModeItsPlace) {
               simplified_->renderedTriangles(), full_->renderedTriangles(), 100.0 * agreeing / compared, share(50),
               share(80), share(100));
   EXPECT_GE(agreeing, 0.99 * compared);
-  // The largest moves are jumps between neighbouring maxima, which pixels at the outline make; with 200 to 450 pixels
-  // (factor 5) there are many, and the mode itself is known to a few tenths of a millimetre only.
+  // The likelihood is rough by several nats (pixels at the outline are in or out as a whole): the largest moves are
+  // jumps between neighbouring maxima, of which there are many with 200 to 450 pixels (factor 5).
   EXPECT_LE(share(GetParam().factor == 2 ? 80 : 50), 0.05);
 }
 
