@@ -35,7 +35,8 @@ add_library(depth_object_tracker_ros SHARED
   src/ros/tracker_nodelet.cpp
   src/ros/tracker_services.cpp
   src/ros/tracker_session.cpp
-  src/ros/tracker_worker.cpp)
+  src/ros/tracker_worker.cpp
+  src/ros/transform_feed.cpp)
 target_include_directories(depth_object_tracker_ros PUBLIC include)
 #catkin_lint: ignore_once external_interface_path external_include_path
 # SYSTEM: warnings in the headers of other packages are not ours to mend.

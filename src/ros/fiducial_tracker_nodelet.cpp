@@ -39,8 +39,7 @@ void FiducialTrackerNodelet::start() {
   if (!options_.problems.empty()) return;
   tracker_ = std::make_unique<FiducialTracker>(loadFiducialMap(resolveMeshUri(options_.fiducials_file, findPackage)),
                                                options_.tracker);
-  tf_buffer_ = std::make_unique<tf2_ros::Buffer>();
-  tf_listener_ = std::make_unique<tf2_ros::TransformListener>(*tf_buffer_);
+  tf_ = std::make_unique<TransformFeed>();
   tf_broadcaster_ = std::make_unique<tf2_ros::TransformBroadcaster>();
   pose_ = getPrivateNodeHandle().advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", 10);
   status_ = getPrivateNodeHandle().advertise<TrackerStatus>("status", 1, true);
@@ -83,7 +82,7 @@ void FiducialTrackerNodelet::subscribeRgbd() {
 
 void FiducialTrackerNodelet::subscribeMotion() {
   const RobotOptions robot = loadRobotOptions(getPrivateNodeHandle());
-  BuiltRobot built = buildRobot(robot, getPrivateNodeHandle(), *tf_buffer_);
+  BuiltRobot built = buildRobot(robot, getPrivateNodeHandle(), tf_->buffer());
   if (!built.problem.empty()) log_->error(built.problem);
   held_motion_.setRobot(std::move(built));
   grasp_subscriber_ = getNodeHandle().subscribe<Grasp>(topic("grasp"), 10, [this](const GraspConstPtr& grasp) {
@@ -92,7 +91,7 @@ void FiducialTrackerNodelet::subscribeMotion() {
   });
   twist_subscriber_ = getNodeHandle().subscribe<geometry_msgs::TwistStamped>(
       topic("control_twist"), 100, [this](const geometry_msgs::TwistStampedConstPtr& twist) {
-        const std::string problem = held_motion_.addTwist(*twist, camera_frame_, *tf_buffer_);
+        const std::string problem = held_motion_.addTwist(*twist, camera_frame_, tf_->buffer());
         if (!problem.empty()) log_->warn(problem);
       });
   if (held_motion_.robot() == nullptr) return;

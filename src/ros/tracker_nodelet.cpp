@@ -76,10 +76,9 @@ void TrackerNodelet::start() {
   for (const std::string& warning : options.warnings) NODELET_WARN_STREAM(getName() << ": " << warning);
   const std::string image_topic = getNodeHandle().resolveName(siblingName(getName(), "depth/image"));
   const std::string info_topic = findInfoTopic(image_topic);
-  tf_buffer_ = std::make_unique<tf2_ros::Buffer>();
-  tf_listener_ = std::make_unique<tf2_ros::TransformListener>(*tf_buffer_);
+  tf_ = std::make_unique<TransformFeed>();
 
-  TrackerSession session(getName(), image_topic, info_topic, *tf_buffer_);
+  TrackerSession session(getName(), image_topic, info_topic, tf_->buffer());
   session.setFrames(options.frames);
   if (options.share_estimates) session.share(EstimateBoard::forImages(image_topic));
   const BuiltTracker built = buildFromParameters(options);
@@ -90,7 +89,7 @@ void TrackerNodelet::start() {
     has_last_pose = recallLastPose(options.last_pose_file, built.name, session);
   }
   const RobotOptions robot = loadRobotOptions(private_node);
-  session.setRobot(buildRobot(robot, private_node, *tf_buffer_));
+  session.setRobot(buildRobot(robot, private_node, tf_->buffer()));
   if (options.init_file == kSearch) {
     if (!has_last_pose) session.initialiseAnywhere(nullptr);
   } else if (!options.init_file.empty()) {
@@ -110,8 +109,9 @@ void TrackerNodelet::start() {
   }
   worker_->setObserver(
       [this](const DiagnosticSnapshot& snapshot, const TrackerSession& current) { observe(snapshot, current); });
-  services_ = std::make_unique<TrackerServices>(
-      private_node, *worker_, *tf_buffer_, accessForServices(options.object_folders, options.object, built.mesh_file));
+  services_ =
+      std::make_unique<TrackerServices>(private_node, *worker_, tf_->buffer(),
+                                        accessForServices(options.object_folders, options.object, built.mesh_file));
   if (marker_) services_->offerMarker(*marker_);
   services_->setLoadedCallback([this](const TrackerConfig& config) { offerLiveParameters(config); });
   worker_->start();

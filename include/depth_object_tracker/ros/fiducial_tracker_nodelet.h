@@ -6,6 +6,7 @@
 #include "depth_object_tracker/ros/fiducial_options.h"
 #include "depth_object_tracker/ros/held_motion.h"
 #include "depth_object_tracker/ros/throttled_log.h"
+#include "depth_object_tracker/ros/transform_feed.h"
 
 #include <depth_object_tracker/Grasp.h>
 #include <image_transport/subscriber_filter.h>
@@ -17,9 +18,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/JointState.h>
-#include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_broadcaster.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <memory>
 #include <optional>
@@ -55,8 +54,7 @@ class FiducialTrackerNodelet : public nodelet::Nodelet {
 
   FiducialOptions options_;
   std::optional<ThrottledLog> log_;
-  std::unique_ptr<tf2_ros::Buffer> tf_buffer_;
-  std::unique_ptr<tf2_ros::TransformListener> tf_listener_;
+  std::unique_ptr<TransformFeed> tf_;
   std::unique_ptr<tf2_ros::TransformBroadcaster> tf_broadcaster_;
   std::unique_ptr<FiducialTracker> tracker_;
   HeldMotion held_motion_;

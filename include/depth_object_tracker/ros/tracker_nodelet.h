@@ -9,12 +9,11 @@
 #include "depth_object_tracker/ros/tracker_diagnostics.h"
 #include "depth_object_tracker/ros/tracker_services.h"
 #include "depth_object_tracker/ros/tracker_worker.h"
+#include "depth_object_tracker/ros/transform_feed.h"
 
 #include <geometry_msgs/PoseStamped.h>
 #include <image_transport/image_transport.h>
 #include <nodelet/nodelet.h>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <memory>
 #include <mutex>
@@ -45,8 +44,7 @@ class TrackerNodelet : public nodelet::Nodelet {
   void onGrasp(const GraspConstPtr& message);
 
   // In the order of dependence: what is below uses what is above, and goes first.
-  std::unique_ptr<tf2_ros::Buffer> tf_buffer_;
-  std::unique_ptr<tf2_ros::TransformListener> tf_listener_;
+  std::unique_ptr<TransformFeed> tf_;
   std::unique_ptr<TrackerDiagnostics> diagnostics_;  // null when they are switched off
   std::unique_ptr<InitialPoseMarker> marker_;        // null when it is switched off
   std::unique_ptr<PoseMemory> pose_memory_;          // null when it is switched off
