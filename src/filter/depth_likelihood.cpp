@@ -75,7 +75,9 @@ void assessSurroundings(const MeasuredPixel& pixel, float surface_depth, PoseAss
   constexpr float kSameSurfaceStddevs = 4.0f;
   if (isBackgroundAt(pixel, surface_depth)) return;
   ++sum.surrounding_pixels;
-  if (std::abs(pixel.depth - surface_depth) * pixel.inverse_stddev < kSameSurfaceStddevs) ++sum.continued_pixels;
+  const float offset = (pixel.depth - surface_depth) * pixel.inverse_stddev;
+  if (std::abs(offset) < kSameSurfaceStddevs) ++sum.continued_pixels;
+  if (offset >= kSameSurfaceStddevs) ++sum.beyond_pixels;
 }
 
 Linearisation unpacked(const LinearisationSums& sums) {

@@ -117,10 +117,11 @@ Overlap overlapAt(const std::vector<OrientedPoint>& surface, std::size_t queries
   return result;
 }
 
-/// Evidence [nat] that a turn needs: the farther, the surer, if the pose was followed from one that was right.
-double needed(const Pose& from, const Pose& to, bool was_followed) {
-  const double turned = angle(from.linear().transpose() * to.linear()) / kUsualTurnRad;
-  return kSurelyNat + (was_followed ? 0.5 * turned * turned : 0.0);
+/// Evidence [nat] that a turn needs: the farther, the surer.
+double needed(const Pose& from, const Pose& to, const TurnPrior& prior) {
+  const double stddev_rad = prior.was_followed ? kUsualTurnRad : prior.stddev_rad;
+  const double turned = angle(from.linear().transpose() * to.linear()) / stddev_rad;
+  return kSurelyNat + 0.5 * turned * turned;
 }
 
 bool isNearAny(const Pose& T, const std::vector<Pose>& others, const Symmetries& symmetries) {
@@ -212,18 +213,18 @@ void LookAlikeCheck::rankCandidates(DepthLikelihood& likelihood, const Pose& T_c
 }
 
 std::optional<Pose> LookAlikeCheck::findBetter(DepthLikelihood& likelihood, const Pose& T_camera_centre,
-                                               double exponent, bool was_followed, double dt_s) {
+                                               double exponent, const TurnPrior& prior, double dt_s) {
   if (look_alikes_.far.empty()) return std::nullopt;
   if (const std::optional<Pose> nearby = findNearby(likelihood, T_camera_centre, exponent)) return nearby;
-  if (was_followed) pending_.reset();
+  if (prior.was_followed) pending_.reset();
   rankCandidates(likelihood, T_camera_centre);
   const double now = likelihood.logLikelihood(T_camera_centre, 0);
   const auto evidence = [&](const Pose& pose) { return exponent * (likelihood.logLikelihood(pose, 0) - now); };
 
   // Of a pose that was followed only what is as good already is worth the climb.
   const double least = likelihood.broadLogLikelihood(T_camera_centre, kBroadM, 0) -
-                       (was_followed ? kPromisingNat : kPerhapsPromisingNat) / exponent;
-  const std::size_t climbs = was_followed ? 1 : kClimbsWhenNew;
+                       (prior.was_followed ? kPromisingNat : kPerhapsPromisingNat) / exponent;
+  const std::size_t climbs = prior.was_followed ? 1 : kClimbsWhenNew;
   std::optional<Pose> best;
   double found = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < std::min(climbs, candidates_.size()) && candidates_[i].broad > least; ++i) {
@@ -233,13 +234,13 @@ std::optional<Pose> LookAlikeCheck::findBetter(DepthLikelihood& likelihood, cons
     found = value;
     best = climbed;
   }
-  if (best && found > needed(T_camera_centre, *best, was_followed)) {
+  if (best && found > needed(T_camera_centre, *best, prior)) {
     pending_.reset();
     return best;
   }
-  if (was_followed) return std::nullopt;
+  if (prior.was_followed) return std::nullopt;
   if (!pending_ && best && found > kWorthFollowingNat) pending_ = Pending{T_camera_centre.inverse() * *best, 0.0};
-  return followPending(likelihood, T_camera_centre, evidence, dt_s);
+  return followPending(likelihood, T_camera_centre, prior, evidence, dt_s);
 }
 
 std::optional<Pose> LookAlikeCheck::findNearby(DepthLikelihood& likelihood, const Pose& T_camera_centre,
@@ -263,6 +264,7 @@ std::optional<Pose> LookAlikeCheck::findNearby(DepthLikelihood& likelihood, cons
 }
 
 std::optional<Pose> LookAlikeCheck::followPending(DepthLikelihood& likelihood, const Pose& T_camera_centre,
+                                                  const TurnPrior& prior,
                                                   const std::function<double(const Pose&)>& evidence, double dt_s) {
   if (!pending_) return std::nullopt;
   const Pose climbed = climbLikelihood(likelihood, T_camera_centre * pending_->T_centre_centre, kClimb, 0);
@@ -271,7 +273,7 @@ std::optional<Pose> LookAlikeCheck::followPending(DepthLikelihood& likelihood, c
   pending_->evidence = pending_->evidence * std::exp2(-dt_s / kForgottenHalfLifeS) +
                        std::clamp(evidence(climbed), -kMostNat, kMostNat) - kWorthFollowingNat;
   const bool is_other = angle(pending_->T_centre_centre.linear()) > 0.5 * kApartRad;
-  const bool is_better = pending_->evidence > kSurelyNat;
+  const bool is_better = pending_->evidence > needed(T_camera_centre, climbed, prior);
   if (is_better || !is_other || pending_->evidence <= 0.0) pending_.reset();
   if (!is_better) return std::nullopt;
   return climbed;

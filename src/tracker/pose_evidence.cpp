@@ -38,19 +38,24 @@ double findEvidence(const PoseAssessment& assessment) {
 }
 
 double findLogOdds(const PoseAssessment& assessment, double usual_score) {
-  // Logistic regression on 30,000 poses found in images of 80 simulated scenes of 11 objects, some of them while the
+  // Logistic regression on 50,000 poses found in images of 80 simulated scenes of 11 objects, some of them while the
   // object is hidden, and on a real mug, whose score varies more from view to view.
-  constexpr double kConstant = -17.5, kPerLogScore = 25.5, kPerContinuedShare = -11.4, kPerLogEvidence = 2.63;
-  constexpr double kLeastLogScore = -0.35;
-  constexpr double kUsualCells = 800.0;  // something large near the camera explains much of the image, but no better
+  constexpr double kConstant = -11.56, kPerLogScore = 56.8, kPerContinuedShare = -15.5, kPerBoth = -135.0;
+  constexpr double kPerLogBeyond = 1.80, kPerLogCells = 3.19;
+  constexpr double kLeastLogScore = -0.35, kMostContinuedForBoth = 0.3, kLeastBeyond = 0.03;
+  constexpr double kUsualCells = 800.0;  // something large near the camera has more cells, but is no likelier
+  // More in view makes the object no surer: most of what is taken for it is large and in full view.
+  constexpr double kEnoughVisible = 0.3;
   if (!(assessment.expected > 0.0)) return -std::numeric_limits<double>::infinity();
   const double score = assessment.achieved / assessment.expected / usual_score;
-  const double continued =
-      static_cast<double>(assessment.continued_pixels) / std::max(1, assessment.surrounding_pixels);
-  const double evidence =
-      assessment.log_likelihood * std::min(1.0, kUsualCells / std::max(1, assessment.covered_pixels));
-  return kConstant + kPerLogScore * std::clamp(std::log(std::max(score, 1e-3)), kLeastLogScore, 0.0) +
-         kPerContinuedShare * continued + kPerLogEvidence * std::log(std::max(1.0, evidence));
+  const double log_score = std::clamp(std::log(std::max(score, 1e-3)), kLeastLogScore, 0.0);
+  const double around = std::max(1, assessment.surrounding_pixels);
+  const double continued = assessment.continued_pixels / around, beyond = assessment.beyond_pixels / around;
+  const double cells = assessment.measured_pixels * std::min(1.0, kUsualCells / std::max(1, assessment.covered_pixels));
+  return kConstant + kPerLogScore * log_score + kPerContinuedShare * continued +
+         kPerBoth * log_score * std::min(continued, kMostContinuedForBoth) +
+         kPerLogBeyond * std::log(kLeastBeyond + beyond) +
+         kPerLogCells * std::log(std::max(1.0, cells * std::min(kEnoughVisible, assessment.visibleShare())));
 }
 
 }  // namespace depth_object_tracker

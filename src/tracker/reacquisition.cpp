@@ -23,10 +23,6 @@ Vector6d survivorVariances() {
   return variances;
 }
 
-double squaredDistance(const Pose& pose, const SearchRegion& region) {
-  return difference(pose, region.T_camera_centre).cwiseAbs2().cwiseQuotient(region.variances).sum();
-}
-
 /// Of poses that fit about as well as the first, the one nearest to what is expected.
 const FoundPose& likeliestOfTheBest(const std::vector<FoundPose>& found, const SearchRegion& region) {
   constexpr double kAboutAsWell = 0.06;
@@ -80,6 +76,11 @@ double fitOfWhatIsSeen(const PoseAssessment& assessment) {
 }
 
 }  // namespace
+
+double squaredDistance(const Pose& pose, const SearchRegion& region) {
+  const Vector6d variances = region.variances + region.moved_on.cwiseAbs2();
+  return difference(pose, region.T_camera_centre).cwiseAbs2().cwiseQuotient(variances).sum();
+}
 
 std::vector<Pose> Reacquisition::survivorPoses() const {
   std::vector<Pose> poses;

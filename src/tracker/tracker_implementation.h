@@ -58,16 +58,19 @@ class ObjectTracker::Implementation {
   HeldView held_view;
   Hypotheses hypotheses;  // of this image
   LookAlikeCheck look_alikes;
+  TurnPrior turn_prior;  // of an estimate that was found
   Reacquisition reacquisition;
-  bool is_seen = false;        // well, in the last image
-  double seen_s = 0.0;         // for how long, without a break
-  double unseen_s = 0.0;       // since the object was last seen well
-  PoseStatistics last_mean;    // of the centre
-  bool is_anywhere = false;    // nothing is known of the pose yet
-  bool is_on_table = false;    // but that the object rests on a plane
+  bool is_seen = false;                       // well, in the last image
+  double seen_s = 0.0;                        // for how long, without a break
+  double unseen_s = 0.0;                      // since the object was last seen well
+  PoseStatistics last_mean;                   // of the centre
+  Vector6d seen_velocity = Vector6d::Zero();  // of the centre, when the object was last seen well
+  bool is_anywhere = false;                   // nothing is known of the pose yet
+  bool is_on_table = false;                   // but that the object rests on a plane
   bool is_blind = false;       // nothing of the object was seen in the last image, or not where it was thought to be
   double moved_s = kLongAgoS;  // since the filter was started anew, at a pose that was searched
-  double reacquired_s = kLongAgoS;  // since the object was found again
+  double reacquired_s = kLongAgoS;   // since the object was found again
+  double since_check_s = kLongAgoS;  // since its pose was compared with others
   Doubt doubt;
   double since_learnt_s = kLongAgoS;       // how well the object fits where it is seen
   double initialising_s = 0.0;             // since an initial pose that does not fit yet

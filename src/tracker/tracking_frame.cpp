@@ -199,9 +199,11 @@ void ObjectTracker::Implementation::rememberFit(const FilterEstimate& estimate, 
   unseen_s = seen ? 0.0 : unseen_s + dt_s;
   seen_s = seen ? seen_s + dt_s : 0.0;
   reacquired_s += dt_s;
+  since_check_s += dt_s;
   // A pose that had to be searched is not one that was followed.
   moved_s = status.state() == TrackerState::kInitializing ? 0.0 : moved_s + dt_s;
   last_mean = estimate.pose;
+  if (seen) seen_velocity = estimate.velocity + hand_velocity;
   doubt.update(status.score() / reacquisition.usualScore(), status.visibleFraction(), seen, dt_s);
   initialising_s = status.state() == TrackerState::kInitializing ? initialising_s + dt_s : 0.0;
   const bool may_be_blind =

@@ -2,6 +2,7 @@
 #include "tracker/tracker_implementation.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace depth_object_tracker {
 namespace {
@@ -9,7 +10,8 @@ namespace {
 constexpr double kSearchEverywhereAfterS = 3.0;
 constexpr double kSettledAfterS = 3.0;
 constexpr double kDoubtfulAfterFindS = 0.7;
-constexpr double kDoubtfulReachS = 1.5;  // as far as after this long unseen, at most
+constexpr double kDoubtedAtFirstS = 0.12, kBetweenChecksS = 0.05;  // in every image, and then in some
+constexpr double kDoubtfulReachS = 1.5;                            // as far as after this long unseen, at most
 
 Vector6d foundVariances() {
   Vector6d variances;
@@ -26,12 +28,24 @@ Vector6d anyTurnVariances() {
   return variances;
 }
 
+/// How far an object may go on as it moved when it was last seen, in any direction: a hand seldom goes straight on.
+Vector6d movedOn(const Vector6d& velocity, double duration_s) {
+  constexpr double kMostM = 0.3, kMostRad = 1.5;
+  const double distance_m = std::min(kMostM, velocity.head<3>().norm() * duration_s);
+  const double angle_rad = std::min(kMostRad, velocity.tail<3>().norm() * duration_s);
+  Vector6d moved;
+  moved.head<3>().setConstant(distance_m);
+  moved.tail<3>().setConstant(angle_rad);
+  return moved;
+}
+
 }  // namespace
 
 bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, double dt_s) {
   SearchRegion region;
   region.T_camera_centre = last_mean.mean;
   region.variances = searchVariances(unseen_s + dt_s);
+  region.moved_on = movedOn(seen_velocity, unseen_s + dt_s);
   region.is_known = !is_anywhere;
   region.on_table = is_on_table;
   // As long as something in front explains why nothing is seen, the object is most likely still behind it.
@@ -41,6 +55,11 @@ bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, doubl
   const std::optional<Pose> found = reacquisition.search(depth, camera_in_use, region);
   if (!found) return false;
   startAt(*found);
+  // Found where and how it was expected, it is not compared with what looks alike as if nothing were known.
+  constexpr double kExpectedSquared = 6.0;
+  if (region.is_known && squaredDistance(*found, region) < kExpectedSquared) {
+    turn_prior.stddev_rad = std::sqrt(region.variances[3] + region.moved_on[3] * region.moved_on[3]);
+  }
   reacquired_s = 0.0;
   return true;
 }
@@ -48,13 +67,15 @@ bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, doubl
 Doubt::Look ObjectTracker::Implementation::whereToLook() const {
   if (!mayReacquire() || initial_variances || status.state() != TrackerState::kTracking) return Doubt::Look::kNowhere;
   if (is_hidden_in_hand) return Doubt::Look::kNowhere;
-  if (reacquired_s < kDoubtfulAfterFindS) return Doubt::Look::kAround;
-  return doubt.look();
+  if (reacquired_s >= kDoubtfulAfterFindS) return doubt.look();
+  const bool is_due = reacquired_s < kDoubtedAtFirstS || since_check_s > kBetweenChecksS;
+  return is_due ? Doubt::Look::kAround : Doubt::Look::kNowhere;
 }
 
 bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth, const Pose& T_camera_centre) {
   const Doubt::Look look = whereToLook();
   if (look == Doubt::Look::kNowhere) return false;
+  since_check_s = 0.0;
   const bool just_found = reacquired_s < kDoubtfulAfterFindS;
   OtherPoses others;
   others.occluders = known_occluders;
@@ -71,8 +92,8 @@ void ObjectTracker::Implementation::turnToLookAlike(FilterEstimate& estimate, Po
   if (!mayReacquire() || is_blind || initial_variances) return;
   if (assessment.visibleShare() < kSeenAboveVisibleFraction) return;
   const double exponent = likelihoodExponent(config.filter, likelihood.image().grid().factor);
-  const std::optional<Pose> better =
-      look_alikes.findBetter(likelihood, estimate.pose.mean, exponent, moved_s > kSettledAfterS, dt_s);
+  turn_prior.was_followed = moved_s > kSettledAfterS;
+  const std::optional<Pose> better = look_alikes.findBetter(likelihood, estimate.pose.mean, exponent, turn_prior, dt_s);
   if (!better) return;
   filter.moveInObject(estimate.pose.mean.inverse() * *better);
   estimate.pose.mean = *better;
@@ -83,6 +104,7 @@ void ObjectTracker::Implementation::startAt(const Pose& T_camera_centre) {
   is_anywhere = false;
   moved_s = 0.0;
   look_alikes.restart();
+  turn_prior = TurnPrior();
   filter.initialise(T_camera_centre);
   likelihood.resetOcclusion();
   status.restart();

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <limits>
 
 namespace depth_object_tracker {
 namespace {
@@ -75,14 +76,15 @@ class LookAlikeChecked : public testing::Test {
     return truth_ * Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()) * Eigen::Translation3d(centre_);
   }
 
-  std::optional<Pose> findBetter(const Pose& from, bool was_followed) {
+  std::optional<Pose> findBetter(const Pose& from, const TurnPrior& prior) {
     for (int k = 0; k < 8; ++k) {
-      if (auto better = check_.findBetter(likelihood_, from, kExponent, was_followed, 1.0 / 30.0)) return better;
+      if (auto better = check_.findBetter(likelihood_, from, kExponent, prior, 1.0 / 30.0)) return better;
     }
     return std::nullopt;
   }
 
   static constexpr double kExponent = 0.06;
+  static constexpr double kAnyTurn = std::numeric_limits<double>::infinity();
   ScriptedScene scene_;
   Eigen::Vector3d centre_;
   DepthLikelihood likelihood_;
@@ -92,15 +94,21 @@ class LookAlikeChecked : public testing::Test {
 
 TEST_F(LookAlikeChecked, AWrongTurnIsFoundOutWhenTheHandleIsSeen) {
   for (const double wrong : {0.25, 1.0, 2.0, 3.0}) {
-    const std::optional<Pose> better = findBetter(turned(wrong), false);
+    const std::optional<Pose> better = findBetter(turned(wrong), TurnPrior{false, kAnyTurn});
     ASSERT_TRUE(better) << wrong;
     EXPECT_LT(angleBetween(*better, centre_truth_), 0.12) << wrong;
   }
 }
 
+TEST_F(LookAlikeChecked, ATurnThatIsExpectedNeedsLessEvidence) {
+  constexpr double kHandle = 3.0;
+  EXPECT_TRUE(findBetter(turned(kHandle), TurnPrior{false, 0.5}));
+  EXPECT_FALSE(findBetter(turned(kHandle), TurnPrior{false, 0.05}));
+}
+
 TEST_F(LookAlikeChecked, TheRightTurnIsKept) {
   for (int k = 0; k < 12; ++k) {
-    EXPECT_FALSE(check_.findBetter(likelihood_, centre_truth_, kExponent, k % 2 == 0, 1.0 / 30.0));
+    EXPECT_FALSE(check_.findBetter(likelihood_, centre_truth_, kExponent, TurnPrior{k % 2 == 0, kAnyTurn}, 1.0 / 30.0));
   }
 }
 

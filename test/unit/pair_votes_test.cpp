@@ -97,6 +97,7 @@ PoseAssessment wellSeen() {
   assessment.visible_pixels = 700.0;
   assessment.surrounding_pixels = 100;
   assessment.continued_pixels = 5;
+  assessment.beyond_pixels = 70;
   assessment.expected = 4000.0;
   assessment.achieved = 3960.0;
   assessment.log_likelihood = 3600.0;
@@ -116,8 +117,23 @@ TEST(FindLogOdds, FallWithTheFitTheOutlineAndTheEvidence) {
   part_of_a_wall.continued_pixels = 40;
   EXPECT_LT(findLogOdds(part_of_a_wall, 0.98), best - 2.0);
   PoseAssessment little = wellSeen();
-  little.log_likelihood *= 0.25;
+  little.visible_pixels *= 0.1;
   EXPECT_LT(findLogOdds(little, 0.98), best - 2.0);
+}
+
+TEST(FindLogOdds, RiseWhereTheOutlineIsSeenToEnd) {
+  PoseAssessment nowhere_seen_to_end = wellSeen();
+  nowhere_seen_to_end.beyond_pixels = 0;
+  EXPECT_LT(findLogOdds(nowhere_seen_to_end, 0.98), findLogOdds(wellSeen(), 0.98) - 2.0);
+}
+
+TEST(FindLogOdds, DoNotBlameTheObjectForWhatHidesHalfOfIt) {
+  PoseAssessment half_hidden = wellSeen();
+  half_hidden.visible_pixels *= 0.5;
+  half_hidden.achieved *= 0.5;
+  half_hidden.expected *= 0.5;
+  half_hidden.log_likelihood *= 0.5;
+  EXPECT_NEAR(findLogOdds(half_hidden, 0.98), findLogOdds(wellSeen(), 0.98), 1e-9);
 }
 
 TEST(FindLogOdds, DoNotBlameTheObjectForItsMesh) {
@@ -129,6 +145,8 @@ TEST(FindLogOdds, DoNotBlameTheObjectForItsMesh) {
 TEST(FindLogOdds, AreNotRaisedByNearnessToTheCamera) {
   PoseAssessment near_camera = wellSeen();
   near_camera.covered_pixels *= 4;
+  near_camera.measured_pixels *= 4;
+  near_camera.visible_pixels *= 4.0;
   near_camera.log_likelihood *= 4.0;
   EXPECT_NEAR(findLogOdds(near_camera, 0.98), findLogOdds(wellSeen(), 0.98), 1e-9);
 }

@@ -28,6 +28,7 @@ struct PoseAssessment {
   int through_pixels = 0;       ///< measured pixels with a reading clearly behind the object
   int surrounding_pixels = 0;   ///< measured pixels just outside of the outline
   int continued_pixels = 0;     ///< ... of which with a reading that carries on the surface beside them
+  int beyond_pixels = 0;        ///< ... of which with a reading clearly behind: the object ends there
 
   /// Of the object, in [0, 1]: where most of it has no reading little is seen of it, however well the rest fits.
   double visibleShare() const;

@@ -8,6 +8,7 @@
 #include "depth_object_tracker/tracker/oriented_points.h"
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -21,16 +22,24 @@ struct LookAlikes {
 /// @param symmetries about the centre: what looks exactly the same is no look-alike.
 LookAlikes findLookAlikes(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object, const Symmetries& symmetries);
 
+/// What is known of an estimate's rotation beside the image.
+struct TurnPrior {
+  /// From a pose that was right: the farther a turn, the surer it must be (a finger makes a fine handle where the mug's
+  /// own is hidden).
+  bool was_followed = true;
+  /// Not followed: how far from the estimate the rotation may be [rad]; infinite = any is as likely.
+  double stddev_rad = std::numeric_limits<double>::infinity();
+};
+
 /// Compares an estimate with its look-alikes, a few in every image.
 class LookAlikeCheck {
  public:
   explicit LookAlikeCheck(LookAlikes look_alikes) : look_alikes_(std::move(look_alikes)) {}
 
-  /// @param exponent gamma of the filter. @param was_followed T_camera_centre was followed from a pose that was right:
-  /// the farther a turn, the surer it must be (a finger makes a fine handle where the mug's own is hidden).
-  /// @param dt_s since the last image. @return a pose of the centre that explains the last images surely better.
+  /// @param exponent gamma of the filter. @param dt_s since the last image. @return a pose of the centre that explains
+  /// the last images surely better.
   std::optional<Pose> findBetter(DepthLikelihood& likelihood, const Pose& T_camera_centre, double exponent,
-                                 bool was_followed, double dt_s);
+                                 const TurnPrior& prior, double dt_s);
 
   /// Forgets what earlier images said.
   void restart() { pending_.reset(); }
@@ -51,7 +60,7 @@ class LookAlikeCheck {
   /// The next few look-alikes, the most promising first.
   void rankCandidates(DepthLikelihood& likelihood, const Pose& T_camera_centre);
   std::optional<Pose> findNearby(DepthLikelihood& likelihood, const Pose& T_camera_centre, double exponent);
-  std::optional<Pose> followPending(DepthLikelihood& likelihood, const Pose& T_camera_centre,
+  std::optional<Pose> followPending(DepthLikelihood& likelihood, const Pose& T_camera_centre, const TurnPrior& prior,
                                     const std::function<double(const Pose&)>& evidence, double dt_s);
 
   LookAlikes look_alikes_;

@@ -14,11 +14,15 @@ namespace depth_object_tracker {
 struct SearchRegion {
   Pose T_camera_centre = Pose::Identity();
   Vector6d variances = Vector6d::Ones();  ///< [m^2, rad^2]
+  Vector6d moved_on = Vector6d::Zero();   ///< [m, rad] it may have gone, had it moved on as when it was last seen
   bool is_known = true;                   ///< false: anywhere in the image
   bool everywhere = false;                ///< is_known: in the rest of the image, too, else in every third one
   bool on_table = false;                  ///< not is_known: it rests on a plane that the image shows
   KnownOccluders* occluders = nullptr;    ///< the object is not where one of them is seen; null = none
 };
+
+/// Of a pose from where the object is expected, in squared standard deviations; 6 on average for the right one.
+double squaredDistance(const Pose& pose, const SearchRegion& region);
 
 /// Which poses an estimate is compared with, and how.
 struct OtherPoses {
