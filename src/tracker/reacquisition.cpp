@@ -99,7 +99,8 @@ double Reacquisition::evidenceBefore(const Pose& T_camera_centre) const {
 
 std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const PinholeCamera& camera,
                                           const SearchRegion& region) {
-  finder_->setImage(depth, camera, std::max(0.2, region.T_camera_centre.translation().z()), region.occluders);
+  const double expected_m = std::max(0.2, region.T_camera_centre.translation().z());
+  finder_->setImage(depth, camera, std::clamp(region.seen_distance_m, expected_m, 2.0 * expected_m), region.occluders);
   found_.clear();
   if (!region.is_known) return searchAnywhere(region);
   const bool everywhere_instead = !region.everywhere && ++images_ % 3 == 0;

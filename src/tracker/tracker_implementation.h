@@ -64,6 +64,7 @@ class ObjectTracker::Implementation {
   double seen_s = 0.0;                        // for how long, without a break
   double unseen_s = 0.0;                      // since the object was last seen well
   PoseStatistics last_mean;                   // of the centre
+  double seen_distance_m = 0.0;               // of the centre, when the object was last surely seen
   Vector6d seen_velocity = Vector6d::Zero();  // of the centre, when the object was last seen well
   bool is_anywhere = false;                   // nothing is known of the pose yet
   bool is_on_table = false;                   // but that the object rests on a plane

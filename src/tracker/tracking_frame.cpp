@@ -203,6 +203,8 @@ void ObjectTracker::Implementation::rememberFit(const FilterEstimate& estimate, 
   // A pose that had to be searched is not one that was followed.
   moved_s = status.state() == TrackerState::kInitializing ? 0.0 : moved_s + dt_s;
   last_mean = estimate.pose;
+  constexpr double kSurelyAfterS = 1.0;  // what was only just found may be something else
+  if (seen && moved_s > kSurelyAfterS) seen_distance_m = estimate.pose.mean.translation().z();
   if (seen) seen_velocity = estimate.velocity + hand_velocity;
   doubt.update(status.score() / reacquisition.usualScore(), status.visibleFraction(), seen, dt_s);
   initialising_s = status.state() == TrackerState::kInitializing ? initialising_s + dt_s : 0.0;

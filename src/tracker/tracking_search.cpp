@@ -30,7 +30,7 @@ Vector6d anyTurnVariances() {
 
 /// How far an object may go on as it moved when it was last seen, in any direction: a hand seldom goes straight on.
 Vector6d movedOn(const Vector6d& velocity, double duration_s) {
-  constexpr double kMostM = 0.3, kMostRad = 1.5;
+  constexpr double kMostM = 0.15, kMostRad = 1.5;
   const double distance_m = std::min(kMostM, velocity.head<3>().norm() * duration_s);
   const double angle_rad = std::min(kMostRad, velocity.tail<3>().norm() * duration_s);
   Vector6d moved;
@@ -46,6 +46,7 @@ bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, doubl
   region.T_camera_centre = last_mean.mean;
   region.variances = searchVariances(unseen_s + dt_s);
   region.moved_on = movedOn(seen_velocity, unseen_s + dt_s);
+  region.seen_distance_m = seen_distance_m;
   region.is_known = !is_anywhere;
   region.on_table = is_on_table;
   // As long as something in front explains why nothing is seen, the object is most likely still behind it.

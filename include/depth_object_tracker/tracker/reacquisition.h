@@ -15,6 +15,7 @@ struct SearchRegion {
   Pose T_camera_centre = Pose::Identity();
   Vector6d variances = Vector6d::Ones();  ///< [m^2, rad^2]
   Vector6d moved_on = Vector6d::Zero();   ///< [m, rad] it may have gone, had it moved on as when it was last seen
+  double seen_distance_m = 0.0;           ///< where it was last surely seen: pixels must be fine enough for that, too
   bool is_known = true;                   ///< false: anywhere in the image
   bool everywhere = false;                ///< is_known: in the rest of the image, too, else in every third one
   bool on_table = false;                  ///< not is_known: it rests on a plane that the image shows
