@@ -88,16 +88,19 @@ def check_views(folder):
 
 
 def check_rviz_names(folder):
-    """What rviz listens to goes by the names that were given to track.launch; its configuration has the default ones."""
+    """What rviz listens to goes by the names that a launch file was given; its configuration has the default ones."""
     configuration = yaml.safe_load((folder / "rviz/camera.rviz").read_text(encoding="utf-8"))
     topics = {value for display in configuration["Visualization Manager"]["Displays"]
               for key, value in display.items() if key.endswith("Topic")}
-    root = ElementTree.parse(str(folder / "launch/track.launch")).getroot()
-    rviz = next(node for node in root.findall("node") if node.attrib["type"] == "rviz")
-    remapped = {remap.attrib["from"]: remap.attrib["to"] for remap in rviz.findall("remap")}
-    for topic in sorted(topics - {"/ground_truth_marker/marker"} | {"/camera/depth/camera_info", "/tracker/status"}):
-        if "$(" not in remapped.get(topic, ""):
-            yield f"track.launch: rviz would listen to {topic}, whatever the tracker's and the camera's names"
+    camera = {"/camera/depth/image_raw", "/camera/depth/camera_info"}
+    for name, wanted in (("track", topics - {"/ground_truth_marker/marker"} | camera | {"/tracker/status"}),
+                         ("track_many", camera | {"/tracker/marker"}), ("replay", camera)):
+        root = ElementTree.parse(str(folder / f"launch/{name}.launch")).getroot()
+        rviz = next(node for node in root.findall("node") if node.attrib["type"] == "rviz")
+        remapped = {remap.attrib["from"]: remap.attrib["to"] for remap in rviz.findall("remap")}
+        for topic in sorted(wanted):
+            if "$(" not in remapped.get(topic, ""):
+                yield f"{name}.launch: rviz would listen to {topic}, whatever the tracker's and the camera's names"
 
 
 def main():
