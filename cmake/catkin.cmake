@@ -1,5 +1,5 @@
 # Finds catkin where the ROS layer is wanted: WITH_ROS, messages, and the folders of the devel space. Adds no target of ours.
-set(ROS_COMPONENTS camera_info_manager diagnostic_msgs diagnostic_updater dynamic_reconfigure geometry_msgs image_transport
+set(ROS_COMPONENTS bondcpp camera_info_manager diagnostic_msgs diagnostic_updater dynamic_reconfigure geometry_msgs image_transport
   interactive_markers kdl_parser message_filters message_generation nodelet pluginlib rosbag roscpp roslib sensor_msgs
   std_msgs std_srvs tf2_ros visualization_msgs)
 
@@ -66,7 +66,7 @@ add_custom_command(OUTPUT ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_INCLUDE_DESTIN
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES depth_object_tracker_core depth_object_tracker_robot depth_object_tracker_ros
-  CATKIN_DEPENDS camera_info_manager diagnostic_msgs diagnostic_updater dynamic_reconfigure geometry_msgs image_transport
+  CATKIN_DEPENDS bondcpp camera_info_manager diagnostic_msgs diagnostic_updater dynamic_reconfigure geometry_msgs image_transport
     interactive_markers kdl_parser message_filters message_runtime nodelet pluginlib rosbag roscpp roslib sensor_msgs std_msgs
     std_srvs tf2_ros visualization_msgs
   DEPENDS EIGEN3)

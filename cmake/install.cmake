@@ -14,7 +14,7 @@ if(WITH_ROS)
   if(WITH_RVIZ_PANEL)
     install(TARGETS depth_object_tracker_rviz LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
   endif()
-  install(TARGETS demo_monitor initialisation_trials mesh_reader pixel_model_curves pose_marker scene_to_bag simulate_scene simulator_node track_bag track_sequence tracker_node
+  install(TARGETS demo_monitor initialisation_trials load_nodelet mesh_reader pixel_model_curves pose_marker scene_to_bag simulate_scene simulator_node track_bag track_sequence tracker_node
     RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   if(WITH_FIDUCIALS)
     install(TARGETS depth_object_tracker_fiducial_nodelets depth_object_tracker_fiducials depth_object_tracker_ros_fiducials

@@ -15,6 +15,7 @@ add_library(depth_object_tracker_ros SHARED
   src/ros/initial_pose_marker.cpp
   src/ros/initial_pose_resolver.cpp
   src/ros/live_reconfigure.cpp
+  src/ros/manager_watch.cpp
   src/ros/marker_builder.cpp
   src/ros/message_conversions.cpp
   src/ros/object_source.cpp
@@ -50,6 +51,11 @@ add_dependencies(depth_object_tracker_ros mesh_reader ${${PROJECT_NAME}_EXPORTED
 # The plugins, apart from the classes so that tests and plain nodes can link those.
 add_library(depth_object_tracker_nodelets SHARED src/ros/tracker_plugin.cpp)
 target_link_libraries(depth_object_tracker_nodelets PRIVATE depth_object_tracker_ros depth_object_tracker_warnings)
+
+# What track.launch loads the tracker with.
+add_executable(load_nodelet src/ros/load_nodelet_node.cpp)
+target_link_libraries(load_nodelet PRIVATE depth_object_tracker_ros depth_object_tracker_warnings)
+add_dependencies(depth_object_tracker_nodelets load_nodelet)
 
 add_executable(pose_marker src/ros/pose_marker_node.cpp)
 target_link_libraries(pose_marker PRIVATE depth_object_tracker_ros depth_object_tracker_warnings)

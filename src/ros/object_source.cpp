@@ -102,6 +102,9 @@ BuiltTracker buildTracker(const ObjectSource& source, const TrackerConfig& confi
   } catch (const std::exception& error) {
     built.tracker.reset();
     built.problem = error.what();
+    if (source.object_file.empty() && built.problem.find("mesh_scale") != std::string::npos) {
+      built.problem += " For a mesh without an object's YAML file that is ~mesh_scale.";
+    }
   }
   return built;
 }

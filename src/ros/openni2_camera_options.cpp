@@ -38,6 +38,9 @@ OpenNI2CameraOptions loadOpenNI2CameraOptions(const ros::NodeHandle& private_nod
   OpenNI2CameraOptions options;
   readDevice(private_node, options);
   OptionReader reader(private_node, options.problems);
+  std::string paths_from;
+  reader.read("paths_from", "the path of a folder", paths_from);
+  if (isRecording(options.camera.device)) options.camera.device = pathFrom(paths_from, options.camera.device);
   readWholeNumber(reader, "width", 4096, options.camera.mode.width);
   readWholeNumber(reader, "height", 4096, options.camera.mode.height);
   readWholeNumber(reader, "fps", 1000, options.camera.mode.fps);

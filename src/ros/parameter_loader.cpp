@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/ros/parameter_loader.h"
 
+#include "depth_object_tracker/ros/option_reader.h"
 #include "depth_object_tracker/tracker/nearest_name.h"
 #include "depth_object_tracker/tracker/tracker_parameters.h"
 
@@ -71,12 +72,6 @@ void addParameters(XmlRpc::XmlRpcValue& map, const std::string& name, TrackerPar
       parameters.problems.push_back("parameter '" + name + "/" + key + "': " + error.what());
     }
   }
-}
-
-/// Relative paths, meant from a folder; absolute ones and URIs as they are.
-std::string pathFrom(const std::string& folder, const std::string& path) {
-  const bool is_relative = !path.empty() && path.front() != '/' && path.find("://") == std::string::npos;
-  return is_relative && !folder.empty() ? folder + "/" + path : path;
 }
 
 /// One sentence for each parameter right below the node that is not among `known`. Namespaces are left alone: they may

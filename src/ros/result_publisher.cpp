@@ -44,6 +44,7 @@ ResultPublisher::ResultPublisher(ros::NodeHandle private_node, const NodeletOpti
   marker_ = private_node.advertise<visualization_msgs::MarkerArray>("marker", 2);
   slip_ = private_node.advertise<Slip>("slip", 5);
   kinematic_correction_ = private_node.advertise<geometry_msgs::PoseWithCovarianceStamped>("kinematic_correction", 5);
+  object_ = private_node.advertise<visualization_msgs::Marker>("object", 1, true);
   status_ = private_node.advertise<TrackerStatus>("status", 5, true);
   if (options.publish_debug)
     image_address_ = private_node.advertise<std_msgs::UInt64>("debug/last_image_address", 5, true);
@@ -57,7 +58,12 @@ bool ResultPublisher::isWanted(const Publisher& publisher) {
 }
 
 void ResultPublisher::setObject(const BuiltTracker& object) {
-  if (object.tracker) marker_builder_.setObject(object);
+  if (!object.tracker) return;
+  marker_builder_.setObject(object);
+  visualization_msgs::Marker marker = marker_builder_.ghost(0.8f, 0.8f, 0.8f, 0.7f);
+  marker.header.frame_id = object.name;
+  marker.frame_locked = true;  // goes where tf takes the object
+  object_.publish(marker);
 }
 
 void ResultPublisher::publish(const FrameOutcome& outcome, const BuiltTracker& object) {

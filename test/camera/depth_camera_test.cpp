@@ -100,6 +100,19 @@ TEST_F(VirtualCamera, AModeThatItLacksIsSaidAndTheNearestTaken) {
   EXPECT_EQ(log_.count("cannot register depth"), 1);
 }
 
+TEST_F(VirtualCamera, RegistersDepthWhereItCanAndIsAskedTo) {
+  plugIn(kPlugWithColor);
+  DepthCameraOptions options = smallMode();
+  options.registration = true;
+  DepthCamera camera(options, log_.events());
+  camera.setWanted(true);
+  ASSERT_TRUE(waitFor([&] { return log_.size() >= 1; }));
+  EXPECT_TRUE(log_.images().front().frame.is_registered);
+  EXPECT_EQ(log_.count("register"), 0);
+  camera.setOptions(smallMode());
+  EXPECT_TRUE(waitFor([&] { return !log_.images().back().frame.is_registered; }));
+}
+
 TEST_F(VirtualCamera, ComesBackAfterItWasUnplugged) {
   DepthCamera camera(smallMode(), log_.events());
   camera.setWanted(true);

@@ -228,6 +228,31 @@ TEST_F(Publisher, ACalibrationIsUsedForItsOwnSizeOnly) {
   EXPECT_NEAR(infos.newest()->K[0], factoryFocalLengthPx(frame_), 1e-9);
 }
 
+TEST_F(Publisher, RegisteredImagesAreSeenFromTheColourCamera) {
+  Recorder<sensor_msgs::Image> images(node_, "/publisher/depth/image_raw");
+  ASSERT_TRUE(waitUntil([&] { return is_wanted_.load(); }));
+  publish();
+  frame_.is_registered = true;
+  publish();
+  ASSERT_TRUE(waitUntil([&] { return images.size() == 2; }));
+  EXPECT_EQ(images.messages()[0]->header.frame_id, "camera_depth_optical_frame");
+  EXPECT_EQ(images.messages()[1]->header.frame_id, "camera_rgb_optical_frame");
+}
+
+TEST(CameraOptions, ARelativeRecordingIsMeantFromTheGivenFolder) {
+  const ros::NodeHandle node("/options_of_a_camera");
+  const auto deviceFor = [&](const std::string& device) {
+    node.setParam("device", device);
+    return loadOpenNI2CameraOptions(node).camera.device;
+  };
+  node.setParam("paths_from", "/data");
+  EXPECT_EQ(deviceFor("sub/mug.oni"), "/data/sub/mug.oni");
+  EXPECT_EQ(deviceFor("/other/mug.oni"), "/other/mug.oni");
+  EXPECT_EQ(deviceFor("1d27/0601@1/5"), "1d27/0601@1/5") << "a URI";
+  node.deleteParam("paths_from");
+  EXPECT_EQ(deviceFor("mug.oni"), "mug.oni");
+}
+
 TEST_F(Publisher, APartOfTheImageSaysWhichOne) {
   frame_.full_width = 10;
   frame_.full_height = 8;

@@ -18,8 +18,8 @@
 
 namespace depth_object_tracker {
 
-inline void plugIn() {
-  std::ofstream(std::getenv("VIRTUAL_DEPTH_PLUG")) << "in";
+inline void plugIn(const std::string& text = "in") {
+  std::ofstream(std::getenv("VIRTUAL_DEPTH_PLUG")) << text;
 }
 
 inline void unplug() {

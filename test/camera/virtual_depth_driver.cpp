@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An OpenNI2 driver for tests: one depth camera, connected while the file named by VIRTUAL_DEPTH_PLUG exists.
+// An OpenNI2 driver for tests: one depth camera, connected while the file named by VIRTUAL_DEPTH_PLUG exists. It can
+// register depth to a colour camera where that file says "in, with colour".
 #include "virtual_scene.h"
 
 #include <Driver/OniDriverAPI.h>
@@ -168,7 +169,17 @@ class VirtualDevice : public oni::driver::DeviceBase {
 
   void destroyStream(oni::driver::StreamBase* stream) override { delete stream; }
 
+  OniBool isImageRegistrationModeSupported(OniImageRegistrationMode mode) override {
+    return mode == ONI_IMAGE_REGISTRATION_OFF || hasColor();
+  }
+
+  OniStatus setProperty(int property, const void* data, int size) override {
+    if (property != ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION || !hasColor()) return ONI_STATUS_NOT_IMPLEMENTED;
+    return take(registration_, data, size);
+  }
+
   OniStatus getProperty(int property, void* data, int* size) override {
+    if (property == ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION && hasColor()) return give(registration_, data, size);
     if (property != ONI_DEVICE_PROPERTY_SERIAL_NUMBER) return ONI_STATUS_NOT_IMPLEMENTED;
     if (*size <= static_cast<int>(std::strlen(kVirtualDeviceSerial))) return ONI_STATUS_BAD_PARAMETER;
     std::strcpy(static_cast<char*>(data), kVirtualDeviceSerial);
@@ -176,8 +187,16 @@ class VirtualDevice : public oni::driver::DeviceBase {
   }
 
  private:
+  static bool hasColor() {
+    std::ifstream plug(std::getenv("VIRTUAL_DEPTH_PLUG"));
+    std::string text;
+    std::getline(plug, text);
+    return text == kPlugWithColor;
+  }
+
   std::array<OniVideoMode, 4> modes_ = videoModes();
   OniSensorInfo sensor_{};
+  OniImageRegistrationMode registration_ = ONI_IMAGE_REGISTRATION_OFF;
 };
 
 class VirtualDriver : public oni::driver::DriverBase {

@@ -15,6 +15,7 @@ namespace depth_object_tracker {
 
 constexpr const char* kVirtualDeviceUri = "virtual://depth/1";
 constexpr const char* kVirtualDeviceSerial = "V-0815";
+constexpr const char* kPlugWithColor = "in, with colour";  // what the plug's file says then
 constexpr double kVirtualFovRad = 1.0144686707507438;
 constexpr double kVirtualVerticalFovRad = 0.78980943449644714;
 constexpr std::uint16_t kVirtualWallMm = 1400;

@@ -13,6 +13,8 @@ import sys
 import tempfile
 import xml.etree.ElementTree as ElementTree
 
+import yaml
+
 LEAST_WORDS = 1
 
 
@@ -48,11 +50,13 @@ def check_ros_args(launch, names):
 def check_relative_paths(launch, names):
     """A path that is given as a name means the file where roslaunch was called."""
     given = [f"{name}:=here.yaml" for name in names if name in ("object", "objects", "bag")]
+    given += ["device:=here.oni"] if "device" in names else []
     with tempfile.TemporaryDirectory() as folder:
         answer = subprocess.run(["roslaunch", "--dump-params", str(launch), *given], cwd=folder,
                                 env={**os.environ, "PWD": folder}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                 text=True, check=False, timeout=60)
-        if f"/paths_from: {folder}" not in answer.stdout:
+        readers = re.findall(rf"^(\S+)/paths_from: {re.escape(folder)}$", answer.stdout, re.MULTILINE)
+        if len(readers) != (2 if "device" in names else 1):  # the camera reads paths, too
             yield f"relative paths are not meant from the working folder: {answer.stdout}"
 
 
@@ -83,6 +87,22 @@ def check_views(folder):
         yield f"rviz/tracker.rviz and rviz/camera.rviz differ in more than their view: {sorted(differing)}"
 
 
+def check_rviz_names(folder):
+    """What rviz listens to goes by the names that a launch file was given; its configuration has the default ones."""
+    configuration = yaml.safe_load((folder / "rviz/camera.rviz").read_text(encoding="utf-8"))
+    topics = {value for display in configuration["Visualization Manager"]["Displays"]
+              for key, value in display.items() if key.endswith("Topic")}
+    camera = {"/camera/depth/image_raw", "/camera/depth/camera_info"}
+    for name, wanted in (("track", topics - {"/ground_truth_marker/marker"} | camera | {"/tracker/status"}),
+                         ("track_many", camera | {"/tracker/marker"}), ("replay", camera)):
+        root = ElementTree.parse(str(folder / f"launch/{name}.launch")).getroot()
+        rviz = next(node for node in root.findall("node") if node.attrib["type"] == "rviz")
+        remapped = {remap.attrib["from"]: remap.attrib["to"] for remap in rviz.findall("remap")}
+        for topic in sorted(wanted):
+            if "$(" not in remapped.get(topic, ""):
+                yield f"{name}.launch: rviz would listen to {topic}, whatever the tracker's and the camera's names"
+
+
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
@@ -90,6 +110,7 @@ def main():
     rows = readme_rows(pathlib.Path(sys.argv[2]))
     problems = [f"{launch.name}: {problem}" for launch in launch_files for problem in problems_of(launch, rows)]
     problems += check_views(pathlib.Path(sys.argv[1]).resolve().parent / "rviz")
+    problems += check_rviz_names(pathlib.Path(sys.argv[1]).resolve().parent)
     problems += [f"README: there is no {name}" for name in rows if name not in {launch.name for launch in launch_files}]
     for problem in problems:
         print(problem)

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Lists of objects for track_many: what is right is read, what is wrong is named."""
+"""track_many without ROS: what is right in a list of objects is read, what is wrong is named; whether its manager is dead."""
 import importlib.machinery
 import importlib.util
 import pathlib
 import tempfile
+import threading
 import unittest
+import xmlrpc.server
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "track_many"
 loader = importlib.machinery.SourceFileLoader("track_many", str(SCRIPT))
@@ -53,6 +55,40 @@ class ObjectList(unittest.TestCase):
     def test_the_shipped_test_list_is_right(self):
         entries = track_many.read_list(str(pathlib.Path(__file__).parent / "crossing_objects.yaml"))
         self.assertEqual([entry["name"] for entry in entries], ["bracket", "near_mug", "far_mug", "drill"])
+
+
+class ManagerProcess(unittest.TestCase):
+    """As a node answers: code, message, value."""
+
+    def setUp(self):
+        self.server = xmlrpc.server.SimpleXMLRPCServer(("localhost", 0), logRequests=False)
+        self.answer = [1, "", 4711]
+        self.server.register_function(lambda caller: self.answer, "getPid")
+        threading.Thread(target=self.server.serve_forever, daemon=True).start()
+        self.loader = track_many.Loader.__new__(track_many.Loader)
+        self.loader.process = (f"http://localhost:{self.server.server_address[1]}/", 4711)
+
+    def tearDown(self):
+        self.server.server_close()
+
+    def test_the_same_process_is_alive(self):
+        self.assertFalse(self.loader.manager_is_seen_dead())
+        self.server.shutdown()
+
+    def test_another_process_at_its_address_is_another_manager(self):
+        self.answer = [1, "", 4712]
+        self.assertTrue(self.loader.manager_is_seen_dead())
+        self.server.shutdown()
+
+    def test_nobody_at_its_address(self):
+        self.server.shutdown()
+        self.server.server_close()
+        self.assertTrue(self.loader.manager_is_seen_dead())
+
+    def test_one_that_hangs_is_left_to_the_bonds(self):
+        self.server.shutdown()  # connections are taken, and nobody answers
+        track_many.ImpatientTransport.TIMEOUT_S = 0.2
+        self.assertFalse(self.loader.manager_is_seen_dead())
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ add_tracker_test(ros_conversions_test
 add_tracker_test(ros_inputs_test
   SOURCES ros/camera_info_matcher_test.cpp ros/frame_inbox_test.cpp ros/parameter_loader_test.cpp ros/pose_memory_test.cpp
           ros/tracker_diagnostics_test.cpp
-          ros/twist_buffer_test.cpp
+          ros/throttled_log_test.cpp ros/twist_buffer_test.cpp
   LIBRARIES depth_object_tracker_ros)
 add_tracker_test(tracker_session_test SOURCES ros/tracker_session_test.cpp LIBRARIES depth_object_tracker_ros)
 add_tracker_test(moving_camera_test SOURCES ros/moving_camera_test.cpp LIBRARIES depth_object_tracker_ros)
@@ -35,7 +35,7 @@ endfunction()
 # add_script_test(NAME COMMAND...): a program that needs the devel space but no master.
 function(add_script_test name)
   add_test(NAME ${name} COMMAND ${CATKIN_DEVEL_PREFIX}/env.sh ${ARGN})
-  set_tests_properties(${name} PROPERTIES TIMEOUT 120
+  set_tests_properties(${name} PROPERTIES TIMEOUT 300
     ENVIRONMENT "PATH=/usr/bin:$ENV{PATH};ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;ROS_HOSTNAME=localhost")
 endfunction()
 
@@ -65,6 +65,7 @@ if(ROSTEST_PROGRAM)
   set_tests_properties(fault_injection_rostest PROPERTIES TIMEOUT 1000)
   add_ros_test(tracker_bad_start_rostest ros/tracker_bad_start_rostest.cpp)
   add_ros_test(tracker_diagnostics_rostest ros/tracker_diagnostics_rostest.cpp)
+  add_ros_test(tracker_options_rostest ros/tracker_options_rostest.cpp)
   add_ros_test(tracker_outputs_rostest ros/tracker_outputs_rostest.cpp)
   add_ros_test(tracker_overload_rostest ros/tracker_overload_rostest.cpp)
   add_ros_test(tracker_services_rostest ros/tracker_services_rostest.cpp)

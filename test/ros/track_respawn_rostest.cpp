@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// track.launch with respawn: the nodelet manager dies, as it does when a driver in it crashes. The tracker comes back,
-// and takes up the last pose.
+// track.launch with respawn: the nodelet manager dies, as it does when a driver in it crashes, also at the worst
+// moment; or what loads the tracker dies. The tracker comes back, and takes up the last pose.
 #include <gtest/gtest.h>
 
 #include "node_process.h"
@@ -9,8 +9,8 @@
 
 #include <bond/Status.h>
 
+#include <atomic>
 #include <fstream>
-#include <set>
 #include <string>
 
 namespace depth_object_tracker {
@@ -60,14 +60,25 @@ class Camera {
   ros::Time stamp_{1000.0};
 };
 
-/// Manager and loader have heard of each other: from now on each learns of the other's death.
-bool bondIsFormed() {
-  Recorder<bond::Status> statuses(ros::NodeHandle(), "/tracker_manager/bond");
-  return waitUntil([&] {
-    std::set<std::string> ends;
-    for (const auto& status : statuses.messages()) ends.insert(status->instance_id);
-    return ends.size() >= 2;
-  });
+/// Waits until `node` has sent its first heartbeat, and not its second: a bond that has heard just one never breaks by
+/// itself, whatever happens to the other end.
+bool firstHeartbeatComes(const std::string& node) {
+  std::atomic<bool> has_come{false};
+  const boost::function<void(const ros::MessageEvent<const bond::Status>&)> look =
+      [&](const ros::MessageEvent<const bond::Status>& event) {
+        has_come = has_come || event.getPublisherName() == node;
+      };
+  ros::SubscribeOptions options;
+  options.initByFullCallbackType<const ros::MessageEvent<const bond::Status>&>("/tracker_manager/bond", 100, look);
+  const ros::Subscriber subscriber = ros::NodeHandle().subscribe(options);
+  return waitUntil([&] { return has_come.load(); });
+}
+
+/// Kills a node and waits until it has been started again.
+bool killAndSeeItReturn(const std::string& node) {
+  const int process = processOf(node);
+  if (!killNode(node)) return false;
+  return waitUntil([&] { return processOf(node) > 0 && processOf(node) != process; });
 }
 
 bool fileComes(const std::string& file) {
@@ -81,10 +92,25 @@ TEST(TrackRespawn, TheTrackerOutlivesItsManager) {
   // Nobody gives a pose: `init` is search.
   ASSERT_TRUE(camera.comesToTrack()) << (camera.statuses().newest() ? camera.statuses().newest()->reason : "no status");
   ASSERT_TRUE(fileComes(last_pose_file));
-  ASSERT_TRUE(bondIsFormed());
-  const int first = processOf("/tracker_manager");
-  ASSERT_TRUE(killNode("/tracker_manager"));
-  EXPECT_TRUE(waitUntil([&] { return processOf("/tracker_manager") > 0 && processOf("/tracker_manager") != first; }));
+  ASSERT_TRUE(killAndSeeItReturn("/tracker_manager"));
+  ASSERT_TRUE(firstHeartbeatComes("/tracker_manager"));
+  ASSERT_TRUE(killAndSeeItReturn("/tracker_manager"));
+  EXPECT_TRUE(camera.comesToTrack()) << camera.statuses().newest()->reason;
+}
+
+/// What was loaded is still there then, under the same name.
+TEST(TrackRespawn, TheTrackerOutlivesItsLoader) {
+  Camera camera;
+  ASSERT_TRUE(killAndSeeItReturn("/tracker"));
+  const std::size_t num_statuses = camera.statuses().size();
+  const auto isNew = [&] {
+    const auto statuses = camera.statuses().messages();
+    for (std::size_t i = num_statuses; i < statuses.size(); ++i) {
+      if (statuses[i]->frames_received < 3) return true;
+    }
+    return false;
+  };
+  ASSERT_TRUE(waitUntil(isNew)) << "no tracker that begins to count images";
   EXPECT_TRUE(camera.comesToTrack()) << camera.statuses().newest()->reason;
 }
 

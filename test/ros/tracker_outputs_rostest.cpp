@@ -16,6 +16,7 @@
 #include <std_msgs/UInt64.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_msgs/TFMessage.h>
+#include <visualization_msgs/Marker.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <numeric>
@@ -165,8 +166,22 @@ TEST_F(Outputs, OverlayAndMarker) {
 TEST_F(Outputs, StatusIsLatchedAndPosesAreNot) {
   Recorder<TrackerStatus> statuses(node_, kName + "/status");
   Recorder<geometry_msgs::PoseWithCovarianceStamped> poses(node_, kName + "/pose");
-  EXPECT_TRUE(waitUntil([&] { return statuses.size() > 0; }));
+  EXPECT_TRUE(waitUntil([&] { return statuses.size() > 0 && poses.isConnected(); }));
+  ros::WallDuration(0.5).sleep();  // an old pose would come with the connection
   EXPECT_EQ(poses.size(), 0u);
+}
+
+TEST_F(Outputs, TheObjectIsDescribedOnceForAll) {
+  Recorder<visualization_msgs::Marker> objects(node_, kName + "/object");
+  ASSERT_TRUE(waitUntil([&] { return objects.size() > 0; }));
+  const auto object = objects.newest();
+  EXPECT_EQ(object->header.frame_id, tracker().status()->object_name) << "the frame that tf moves";
+  EXPECT_TRUE(object->header.stamp.isZero() && object->frame_locked);
+  EXPECT_EQ(object->type, visualization_msgs::Marker::TRIANGLE_LIST);
+  EXPECT_GT(object->points.size(), 100u);
+  EXPECT_DOUBLE_EQ(object->pose.orientation.w, 1.0);
+  for (int i = 0; i < 3; ++i) tracker().step();
+  EXPECT_EQ(objects.size(), 1u) << "not for every image";
 }
 
 TEST_F(Outputs, StatusCountsAndTimes) {

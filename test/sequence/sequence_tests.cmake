@@ -9,6 +9,7 @@ add_tracker_test(tracker_sequence_tests
     sequence/many_objects_test.cpp
     sequence/motion_test.cpp
     sequence/reacquisition_test.cpp
+    sequence/score_test.cpp
     sequence/scripted_scene.cpp
     sequence/slip_test.cpp
   LIBRARIES depth_object_tracker_simulator depth_object_tracker_tools)

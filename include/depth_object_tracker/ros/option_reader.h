@@ -11,6 +11,12 @@
 
 namespace depth_object_tracker {
 
+/// Relative paths are meant from `folder`, where that is given; absolute ones and URIs stay as they are.
+inline std::string pathFrom(const std::string& folder, const std::string& path) {
+  const bool is_relative = !path.empty() && path.front() != '/' && path.find("://") == std::string::npos;
+  return is_relative && !folder.empty() ? folder + "/" + path : path;
+}
+
 /// Options that are not set stay as they are; a wrong type or value is a problem, one sentence that names the
 /// parameter.
 class OptionReader {

@@ -47,7 +47,7 @@ class ResultPublisher {
   MarkerBuilder marker_builder_;
   tf2_ros::TransformBroadcaster tf_broadcaster_;
   ros::Publisher pose_, twist_, particles_, particle_poses_, particle_points_, occlusion_, camera_info_, marker_, slip_,
-      kinematic_correction_, status_, image_address_;
+      kinematic_correction_, object_, status_, image_address_;
   image_transport::Publisher overlay_;  // the one picture worth compressing on its way to another machine
 };
 
