@@ -29,6 +29,7 @@ Vector6d anyTurnVariances() {
 }  // namespace
 
 bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, double dt_s) {
+  if (hidden_start) return false;
   SearchRegion region;
   region.T_camera_centre = last_mean.mean;
   region.variances = searchVariances(unseen_s + dt_s);
