@@ -103,7 +103,14 @@ void MeasuredImage::measureRow(int row, int col_begin, int col_end) {
   const auto count = static_cast<std::size_t>(std::max(0, col_end - col_begin));
   computeConstants(begin, count);
   if (model_.paper_occluder) computeFloor(begin, count);
+  if (has_occluders_) dropSeenThrough(begin, count);
   if (has_taken_) excludeTaken(begin, count);
+}
+
+void MeasuredImage::dropSeenThrough(std::size_t begin, std::size_t count) {
+  for (std::size_t i = begin; i < begin + count; ++i) {
+    if (depth_[i] > occluder_limit_[i]) occluder_limit_[i] = kNoOccluder;
+  }
 }
 
 void MeasuredImage::excludeTaken(std::size_t begin, std::size_t count) {

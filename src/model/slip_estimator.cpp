@@ -21,7 +21,7 @@ Vector6d rotated(const Eigen::Matrix3d& R, const Vector6d& vector) {
 void SlipEstimator::reset() {
   axes_ = {};
   started_ = false;
-  statistic_ = 0.0;
+  contradiction_ = 0.0;
   slipping_ = false;
 }
 
@@ -57,7 +57,8 @@ SlipEstimate SlipEstimator::update(const HandStep& step) {
   const double angular_error = config_.kinematics_rotation_error_rad_per_s +
                                config_.kinematics_relative_error * step.hand_velocity.tail<3>().norm();
   Vector6d twist, variances;
-  statistic_ = 0.0;
+  double statistic = 0.0;
+  contradiction_ = 0.0;
   for (int k = 0; k < 6; ++k) {
     Axis& axis = axes_[static_cast<std::size_t>(k)];
     const bool is_linear = k < 3;
@@ -71,10 +72,12 @@ SlipEstimate SlipEstimator::update(const HandStep& step) {
     const double error = is_linear ? linear_error : angular_error;
     twist[k] = axis.velocity;
     variances[k] = axis.covariance(1, 1) + error * error;
-    statistic_ += twist[k] * twist[k] / variances[k];
+    contradiction_ += twist[k] * twist[k] / variances[k];
+    const double pushed = error + (is_linear ? config_.pushed_arm_error_m_per_s : 0.0);
+    statistic += twist[k] * twist[k] / (axis.covariance(1, 1) + pushed * pushed);
   }
   started_ = true;
-  slipping_ = statistic_ > config_.slip_threshold * (slipping_ ? kReleaseShare : 1.0);
+  slipping_ = statistic > config_.slip_threshold * (slipping_ ? kReleaseShare : 1.0);
 
   SlipEstimate estimate;
   estimate.relative_twist = rotated(step.R_camera_object, twist);
@@ -82,14 +85,14 @@ SlipEstimate SlipEstimator::update(const HandStep& step) {
   const Eigen::Matrix3d& R = step.R_camera_object;
   estimate.covariance.topLeftCorner<3, 3>() = R * variances.head<3>().asDiagonal() * R.transpose();
   estimate.covariance.bottomRightCorner<3, 3>() = R * variances.tail<3>().asDiagonal() * R.transpose();
-  estimate.statistic = statistic_;
+  estimate.statistic = statistic;
   estimate.slipping = slipping_;
   return estimate;
 }
 
 double SlipEstimator::noiseScale() const {
   constexpr double kUsual = 2.0;  // at most times it is below
-  return std::clamp(std::sqrt(statistic_ / kUsual), 1.0, config_.slip_noise_scale_max);
+  return std::clamp(std::sqrt(contradiction_ / kUsual), 1.0, config_.slip_noise_scale_max);
 }
 
 }  // namespace depth_object_tracker

@@ -8,13 +8,23 @@ namespace depth_object_tracker {
 namespace {
 
 constexpr double kLeastHiddenShare = 0.7, kMostHiddenShare = 0.97;
-constexpr double kStillHiddenShare = 0.6;  // once it was more
+constexpr double kStillHiddenShare = 0.6;  // once it was more, and of an object that was never seen
 constexpr int kBesideCells = 6;            // what hides the object goes on beside its outline
+constexpr double kLeastShareBeside = 0.4;  // of the cells there
 constexpr float kNowhere = std::numeric_limits<float>::infinity();
 
 std::size_t cell(int row, int col, const PinholeCamera& camera) {
   return static_cast<std::size_t>(row) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(col);
 }
+
+/// Of cells with a reading.
+struct Count {
+  int measured = 0, nearer = 0;
+  void add(float depth_m, float limit_m) {
+    measured += depth_m > 0.0f ? 1 : 0;
+    nearer += depth_m > 0.0f && depth_m < limit_m ? 1 : 0;
+  }
+};
 
 }  // namespace
 
@@ -65,6 +75,25 @@ const std::vector<float>& HeldView::foreignReadings(const DepthImageView& depth,
     }
   }
   return foreign_;
+}
+
+bool HeldView::isHidden(const DepthImageView& depth, const SamplingGrid& grid, const Pose& T_camera_object,
+                        double reach_m) {
+  const std::vector<CoveredPixel>& covered = renderer_.render(T_camera_object, grid.camera);
+  expect(covered, grid.camera);
+  const auto reach = static_cast<float>(reach_m);
+  Count on, all;
+  for (const CoveredPixel& pixel : covered) {
+    on.add(depth.at(grid.fullRow(pixel.row), grid.fullCol(pixel.col)), pixel.depth - reach);
+  }
+  for (int row = 0; row < grid.camera.height; ++row) {
+    for (int col = 0; col < grid.camera.width; ++col) {
+      const float expected = expected_[cell(row, col, grid.camera)];
+      if (expected != kNowhere) all.add(depth.at(grid.fullRow(row), grid.fullCol(col)), expected - reach);
+    }
+  }
+  return on.nearer > kStillHiddenShare * on.measured &&
+         all.nearer - on.nearer > kLeastShareBeside * (all.measured - on.measured);
 }
 
 }  // namespace depth_object_tracker

@@ -135,6 +135,7 @@ void ObjectTracker::moveCamera(const Pose& T_now_before) {
   const Eigen::Matrix3d R_now_before = T_now_before.linear();
   self.filter.moveCamera(T_now_before);
   self.hand_velocity = rotated(self.hand_velocity, R_now_before);
+  if (self.hidden_start) self.hidden_start->T_camera_centre = T_now_before * self.hidden_start->T_camera_centre;
   self.last_mean.mean = T_now_before * self.last_mean.mean;
   self.last_mean.covariance = rotated(self.last_mean.covariance, R_now_before);
   self.result.T_camera_object = T_now_before * self.result.T_camera_object;

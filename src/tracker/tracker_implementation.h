@@ -56,7 +56,12 @@ class ObjectTracker::Implementation {
   CovarianceCalibration calibration;
   PoseSearch search;
   HeldView held_view;
-  Hypotheses hypotheses;  // of this image
+  struct HiddenStart {
+    Pose T_camera_centre;
+    Vector6d variances;
+  };
+  std::optional<HiddenStart> hidden_start;  // an initial pose of which nothing was seen yet, carried by the hand
+  Hypotheses hypotheses;                    // of this image
   LookAlikeCheck look_alikes;
   TurnPrior turn_prior;  // of an estimate that was found
   Reacquisition reacquisition;
@@ -95,6 +100,9 @@ class ObjectTracker::Implementation {
   /// What hides most of an object in a robot's hand is not taken for it.
   void setAsideWhatIsNotHeld(const DepthImageView& depth, const SamplingGrid& grid, double dt_s,
                              const std::optional<ControlInput>& control);
+  /// @return true while nothing or little was ever seen of an object in a robot's hand.
+  bool waitForTheHandToShowIt(const DepthImageView& depth, const SamplingGrid& grid, double dt_s,
+                              const std::optional<ControlInput>& control);
   double projectedPixels(const PinholeCamera& camera) const;
   double diffusionScale() const;
   /// The covariance as the image bears it out.

@@ -68,6 +68,7 @@ Bindings slipBindings() {
     bindNumber(FIELD(slip, kinematics_position_error_m_per_s), 0.0, 1.0, "error of the robot's linear velocity that is no slip, standard deviation"),
     bindNumber(FIELD(slip, kinematics_rotation_error_rad_per_s), 0.0, 10.0, "error of the robot's angular velocity that is no slip, standard deviation"),
     bindNumber(FIELD(slip, kinematics_relative_error), 0.0, 1.0, "share of the hand's velocity that may be wrong on top of that"),
+    bindNumber(FIELD(slip, pushed_arm_error_m_per_s), 0.0, 10.0, "how fast the hand yields to somebody who pushes the arm, which its joints do not see: so slow a motion is no slip; 0 = nobody does"),
     bindNumber(FIELD(slip, slip_threshold), 0.0, 1e6, "an object slips when its motion in the hand is longer than this (squared Mahalanobis length)"),
     bindNumber(FIELD(slip, slip_noise_scale_max), 1.0, 100.0, "the noise in the hand is widened in a slip, at most so much; 1 = never (the paper)"),
   };

@@ -101,6 +101,7 @@ FilterEstimate ObjectTracker::Implementation::look(double dt_s, const std::optio
 }
 
 FilterEstimate ObjectTracker::Implementation::hold(double dt_s, const std::optional<ControlInput>& control) {
+  if (hidden_start) return filter.hold(likelihood, ProcessStep(config.process, hidden_start->variances));
   ProcessStep step(config.process, dt_s, control, centre_object, diffusionScale(), slip.noiseScale());
   step.excludeSuddenMotion();
   followHand(step, control && control->isFollowed(), dt_s);
@@ -254,7 +255,7 @@ void ObjectTracker::Implementation::writeEstimate(const FilterEstimate& estimate
 
 void ObjectTracker::Implementation::writeStatus(const PoseAssessment& assessment) {
   result.state = status.state();
-  result.reason = status.reason();
+  result.reason = hidden_start ? "something hides the object: following the hand until it is seen" : status.reason();
   result.visible_fraction = status.visibleFraction();
   result.score = status.state() == TrackerState::kLost ? 0.0 : status.score();
   result.log_likelihood = assessment.log_likelihood;

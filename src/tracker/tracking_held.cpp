@@ -15,6 +15,7 @@ void ObjectTracker::Implementation::setAsideWhatIsNotHeld(const DepthImageView& 
                                                           double dt_s, const std::optional<ControlInput>& control) {
   const bool was_hidden = is_hidden_in_hand;
   is_hidden_in_hand = false;
+  if (waitForTheHandToShowIt(depth, grid, dt_s, control)) return;
   if (!follows_hand || is_blind || initial_variances || !control || !control->isFollowed() || !mayReacquire()) {
     held_view.reset();
     return;
@@ -30,6 +31,45 @@ void ObjectTracker::Implementation::setAsideWhatIsNotHeld(const DepthImageView& 
   if (!is_hidden_in_hand) return;
   likelihood.setTakenSurfaces(foreign);
   filter.stopMotion();  // in the hand: a slip cannot be told from what so little shows
+}
+
+/// A pose from kinematics of an object that the hand hides from the first image on: nothing fits, and a search would
+/// only find something else. The pose goes where the hand carries it; the first image that shows more of the object is
+/// looked at as any first one.
+bool ObjectTracker::Implementation::waitForTheHandToShowIt(const DepthImageView& depth, const SamplingGrid& grid,
+                                                           double dt_s, const std::optional<ControlInput>& control) {
+  const bool is_new = is_given && initial_variances.has_value();
+  const bool is_first = is_new && control && control->isFollowed() && mayReacquire();
+  if (is_first) {
+    hidden_start = HiddenStart{filter.poses().front(), *initial_variances};
+  } else if (hidden_start && !is_new && !is_anywhere && status.state() == TrackerState::kInitializing) {
+    // Also when the robot falls silent: the pose stays, and is known less and less.
+    const ProcessStep step(config.process, dt_s, control, centre_object, 1.0);
+    hidden_start->T_camera_centre =
+        perturb(hidden_start->T_camera_centre, step.controlDisplacement(hidden_start->T_camera_centre));
+    hidden_start->variances += step.component(0).variances;
+  } else {
+    hidden_start.reset();
+    return false;
+  }
+  const double reach_m = kHeldReachM + std::sqrt(hidden_start->variances.head<3>().maxCoeff());
+  const bool is_hidden = held_view.isHidden(depth, grid, toObject(hidden_start->T_camera_centre), reach_m);
+  if (is_first && !is_hidden) {
+    hidden_start.reset();
+    return false;
+  }
+  filter.initialise(hidden_start->T_camera_centre);
+  likelihood.resetOcclusion();
+  status.restart();
+  initialising_s = 0.0;
+  is_blind = is_hidden;
+  is_given = !is_hidden;
+  initial_variances.reset();
+  if (!is_hidden) {
+    initial_variances = hidden_start->variances;
+    hidden_start.reset();
+  }
+  return is_hidden;
 }
 
 void ObjectTracker::Implementation::followHand(const ProcessStep& step, bool follows, double dt_s) {

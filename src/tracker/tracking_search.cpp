@@ -42,6 +42,7 @@ Vector6d movedOn(const Vector6d& velocity, double duration_s) {
 }  // namespace
 
 bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, double dt_s) {
+  if (hidden_start) return false;
   SearchRegion region;
   region.T_camera_centre = last_mean.mean;
   region.variances = searchVariances(unseen_s + dt_s);

@@ -21,19 +21,23 @@ class RowImage {
     camera.width = static_cast<int>(readings_.size());
     camera.height = 1;
     camera.fx = camera.fy = 100.0;
-    DepthImageView view;
-    view.data = reinterpret_cast<const std::uint8_t*>(readings_.data());
-    view.width = camera.width;
-    view.height = 1;
-    view.step = readings_.size() * sizeof(float);
-    view.pixel_type = DepthImageView::PixelType::kFloat32;
-    view.unit_m = 1.0f;
-    image_.setImage(view, makeSamplingGrid(camera, 1));
+    view_.data = reinterpret_cast<const std::uint8_t*>(readings_.data());
+    view_.width = camera.width;
+    view_.height = 1;
+    view_.step = readings_.size() * sizeof(float);
+    view_.pixel_type = DepthImageView::PixelType::kFloat32;
+    view_.unit_m = 1.0f;
+    grid_ = makeSamplingGrid(camera, 1);
+    image_.setImage(view_, grid_);
     image_.setTakenSurfaces(taken);
     image_.prepare(image_.imageBox());
   }
 
-  void setOccluders(const std::vector<float>& depth_m) { image_.setOccluders(depth_m); }
+  void setOccluders(const std::vector<float>& depth_m) {
+    image_.setImage(view_, grid_);
+    image_.setOccluders(depth_m);
+    image_.prepare(image_.imageBox());
+  }
 
   MeasuredPixel pixel(int col) const { return image_.pixel(0, col); }
   PixelRatios ratios(int col, float rendered_depth_m) const {
@@ -45,6 +49,8 @@ class RowImage {
 
  private:
   std::vector<float> readings_;
+  DepthImageView view_;
+  SamplingGrid grid_;
   MeasuredImage image_;
 };
 
@@ -119,8 +125,10 @@ TEST(MeasuredImage, WhatIsBehindAKnownOccluderCountsAsOccludedRatherThanNot) {
   PixelModelConfig config;
   config.known_occluder_p_occluded = 0.7;
   config.known_occluder_margin_m = 0.03;
-  RowImage row({0.0f, 1.0f, 1.0f}, config);
+  config.min_p_occluded_in_front = 0.0;
+  RowImage row({0.0f, 0.9f, 0.9f}, config);
   row.setOccluders({0.9f, 0.9f, 0.0f});
+  EXPECT_EQ(row.believedOcclusion(0.1f, 0, 1.0f), 0.7f) << "no reading contradicts it";
   EXPECT_EQ(row.believedOcclusion(0.1f, 1, 1.0f), 0.7f);
   EXPECT_EQ(row.believedOcclusion(0.9f, 1, 1.0f), 0.9f) << "who knows better is not contradicted";
   EXPECT_EQ(row.believedOcclusion(0.1f, 1, 0.92f), 0.1f) << "too near to it to say";
@@ -129,9 +137,23 @@ TEST(MeasuredImage, WhatIsBehindAKnownOccluderCountsAsOccludedRatherThanNot) {
   row.setOccluders({0.9f});
   EXPECT_EQ(row.believedOcclusion(0.1f, 1, 1.0f), 0.1f) << "of another size than the grid";
   config.known_occluder_p_occluded = 0.0;
-  RowImage off({0.0f, 1.0f, 1.0f}, config);
+  RowImage off({0.0f, 0.9f, 0.9f}, config);
   off.setOccluders({0.9f, 0.9f, 0.0f});
   EXPECT_EQ(off.believedOcclusion(0.1f, 1, 1.0f), 0.1f);
+}
+
+// A robot's links are drawn centimetres off: where the object is seen behind one, it is as if there were none.
+TEST(MeasuredImage, AnOccluderThatIsSeenThroughDoesNotCount) {
+  PixelModelConfig config;
+  config.known_occluder_p_occluded = 0.95;
+  config.known_occluder_margin_m = 0.03;
+  RowImage row({1.0f, 0.94f, 0.92f, 0.7f}, config);
+  row.setOccluders({0.9f, 0.9f, 0.9f, 0.9f});
+  EXPECT_EQ(row.believedOcclusion(0.1f, 0, 1.0f), 0.1f) << "the object is seen";
+  EXPECT_EQ(row.believedOcclusion(0.1f, 1, 0.94f), 0.1f);
+  EXPECT_EQ(row.pixel(1).occluder_limit, kNoOccluder);
+  EXPECT_EQ(row.believedOcclusion(0.1f, 2, 1.0f), 0.95f) << "as near as its place is known";
+  EXPECT_EQ(row.believedOcclusion(0.1f, 3, 1.0f), 0.95f) << "what is nearer still does not contradict it";
 }
 
 TEST(MeasuredImage, AReadingOnSomethingElsesSurfaceIsNotTheObjects) {

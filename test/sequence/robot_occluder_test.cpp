@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The robot's own links as known occluders, placed by joints that are wrong by centimetres: never worse than without.
+// The robot's own links as known occluders, placed by joints that are wrong by centimetres, and two more centimetres
+// off: never worse than without.
 #include "occluder_trial.h"
 
 #include <gtest/gtest.h>
@@ -9,20 +10,31 @@
 namespace depth_object_tracker {
 namespace {
 
+// Two trackers that differ in their seed alone are up to 15 % apart in one scene.
+constexpr double kOneScene = 1.25, kInTheMean = 1.08;
+constexpr double kErrorM = 0.02;
+
 TEST(RobotOccluder, LinksThatAreOffByCentimetresDoNotHarm) {
-  for (OccluderTrial trial : {OccluderTrial{"mug.obj", Scenario::kSlip, 1, 90, {}},
-                              {"bracket.obj", Scenario::kRobot, 1, 90, {}},
-                              {"drill.obj", Scenario::kRobot, 2, 90, {}},
-                              {"box.obj", Scenario::kRobot, 3, 90, {}}}) {
-    const TrialErrors without = runTrial(trial);
-    trial.link_error_camera_m = Eigen::Vector3d::Zero();
-    const TrialErrors with = runTrial(trial);
-    std::cout << trial.object << ": median and worst position error [mm] without " << 1e3 * without.median_m << ' '
-              << 1e3 * without.worst_m << ", with the links " << 1e3 * with.median_m << ' ' << 1e3 * with.worst_m
-              << '\n';
-    EXPECT_LT(with.median_m, 1.15 * without.median_m + 0.00005);
-    EXPECT_LT(with.worst_m, 1.5 * without.worst_m + 0.0005);
+  constexpr int kFrames = 60;
+  ErrorRatios all;
+  for (const OccluderTrial& trial : {OccluderTrial("mug.obj", Scenario::kSlip, 1, kFrames),
+                                     OccluderTrial("bracket.obj", Scenario::kRobot, 1, kFrames),
+                                     OccluderTrial("drill.obj", Scenario::kRobot, 2, kFrames),
+                                     OccluderTrial("box.obj", Scenario::kRobot, 3, kFrames)}) {
+    const TrialErrors without = trial.track({});
+    ErrorRatios ratios;
+    for (const Eigen::Vector3d& error : {Eigen::Vector3d(0.0, 0.0, 0.0), Eigen::Vector3d(kErrorM, 0.0, 0.0),
+                                         Eigen::Vector3d(0.0, 0.0, -kErrorM), Eigen::Vector3d(0.0, 0.0, kErrorM)}) {
+      const TrialErrors with = trial.track(error);
+      ratios.add(with, without);
+      all.add(with, without);
+    }
+    std::cout << trial.name() << ": median and worst error relative to without links " << ratios.median() << ' '
+              << ratios.worst() << '\n';
+    EXPECT_LT(ratios.median(), kOneScene);
   }
+  EXPECT_LT(all.median(), kInTheMean);
+  EXPECT_LT(all.worst(), 1.15);
 }
 
 }  // namespace

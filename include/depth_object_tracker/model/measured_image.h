@@ -78,7 +78,8 @@ class MeasuredImage {
   /// A new frame; the view must stay valid until the next call.
   void setImage(const DepthImageView& view, const SamplingGrid& grid);
 
-  /// Known occluders for this frame, after setImage().
+  /// Known occluders for this frame, after setImage() and before prepare(). Where the reading lies behind one, and
+  /// config.known_occluder_margin_m more, the occluder is not where it was said to be and does not count.
   /// @param depth_m of the nearest one for each cell of the grid, row-major; 0 = none. Another size is ignored.
   void setOccluders(const std::vector<float>& depth_m);
 
@@ -113,6 +114,7 @@ class MeasuredImage {
   void measureRow(int row, int col_begin, int col_end);
   void computeConstants(std::size_t begin, std::size_t count);
   void computeFloor(std::size_t begin, std::size_t count);
+  void dropSeenThrough(std::size_t begin, std::size_t count);
   void excludeTaken(std::size_t begin, std::size_t count);
 
   PixelModelConfig config_;

@@ -17,8 +17,8 @@ struct PixelModelConfig {
   double edge_stddev_px = 0.8;  ///< where the outline is seen, full-resolution pixels; 0 = to the pixel (the paper)
   double tail_weight = 0.01;    ///< beta: share of readings that are anything in (0, max_depth_m)
   double max_depth_m = 6.0;     ///< m: readings beyond are treated as missing
-  double known_occluder_p_occluded = 0.7;  ///< prior behind a known occluder (a robot's link); 0 = they are ignored
-  double known_occluder_margin_m = 0.03;   ///< how well its place is known: nearer to it nothing is behind it
+  double known_occluder_p_occluded = 0.95;  ///< prior behind a known occluder (a robot's link); 0 = they are ignored
+  double known_occluder_margin_m = 0.03;    ///< how well its place is known: nearer to it nothing is behind it
   double min_p_occluded_in_front =
       0.8;  ///< p(occluded), at least, of readings far in front of the object; 0 = unused (the paper)
   double occluder_half_life_m = 1.0;  ///< depth over which the occluders' density halves

@@ -21,13 +21,15 @@ struct HandStep {
 struct SlipEstimate {
   Vector6d relative_twist = Vector6d::Zero();  ///< of the object in the hand [m/s, rad/s], camera axes
   Matrix6d covariance = Matrix6d::Identity();  ///< of it, errors of the kinematics included
-  double statistic = 0.0;  ///< squared Mahalanobis length of the twist: below 2 at most times, 5 to 50 in a slip
+  /// Squared Mahalanobis length of the twist, were somebody pushing the arm: below 2 at most times, 4 to 50 in a slip.
+  double statistic = 0.0;
   bool slipping = false;
 };
 
 /// Six independent Kalman filters along the object's axes, each of position in the hand and velocity (an
 /// Ornstein-Uhlenbeck process). The residuals' sum is a position: errors of the poses do not add up in it, so that slow
-/// slips are seen as well. Not thread-safe.
+/// slips are seen as well. Whatever contradicts the joints widens the noise; a slip is what an arm that is pushed or
+/// bends cannot do: it turns by little while it moves the hand, about joints far away. Not thread-safe.
 class SlipEstimator {
  public:
   explicit SlipEstimator(const SlipConfig& config) : config_(config) {}
@@ -53,7 +55,7 @@ class SlipEstimator {
   SlipConfig config_;
   bool started_ = false;
   std::array<Axis, 6> axes_;
-  double statistic_ = 0.0;
+  double contradiction_ = 0.0;  // statistic, were nobody pushing
   bool slipping_ = false;
 };
 
