@@ -89,6 +89,21 @@ void forEachElement(const std::string& xml, const std::string& element, const Ch
   }
 }
 
+/// Whether one of NAME="VALUE" has that name; not within a value, nor at the end of a longer name.
+bool hasAttribute(const std::string& attributes, const std::string& name) {
+  for (std::size_t i = attributes.find_first_not_of(" \t\r\n"); i != std::string::npos;) {
+    const std::size_t equals = attributes.find('=', i);
+    if (equals == std::string::npos) return false;
+    if (attributes.compare(i, equals - i, name) == 0) return true;
+    const std::size_t quote = attributes.find_first_of("\"'", equals);
+    if (quote == std::string::npos) return false;
+    const std::size_t end = attributes.find(attributes[quote], quote + 1);
+    if (end == std::string::npos) return false;
+    i = attributes.find_first_not_of(" \t\r\n", end + 1);
+  }
+  return false;
+}
+
 /// assimp's Collada reader does not return from index lists that hold anything but integers, and crashes on arrays
 /// without count.
 void checkDaeText(const std::string& xml) {
@@ -103,8 +118,7 @@ void checkDaeText(const std::string& xml) {
   }
   for (const char* element : {"float_array", "Name_array", "IDREF_array"}) {
     forEachElement(xml, element, [&](const std::string& attributes, const std::string&) {
-      if (attributes.find("count=") == std::string::npos)
-        throw MeshError(name + "an element <" + element + "> has no count");
+      if (!hasAttribute(attributes, "count")) throw MeshError(name + "an element <" + element + "> has no count");
     });
   }
   for (const char* attribute : {" count=\"", " stride=\"", " offset=\""}) {
