@@ -23,16 +23,29 @@ std::string formatCount(double count) {
   return stream.str();
 }
 
-/// What is wrong with one line of a PLY header, "" when nothing is. Adds an element's count to `num_elements`.
-std::string findPlyProblem(const std::string& line, double& num_elements) {
+/// What a PLY header promises.
+struct PlyElements {
+  double count = 0.0;
+  std::set<std::string> names;
+};
+
+/// What is wrong with one line of a PLY header, "" when nothing is. Adds an element to `elements`.
+std::string findPlyProblem(const std::string& line, PlyElements& elements) {
+  // assimp ends lines at any of these, and so would read elements out of what is a comment here.
+  const auto is_control = [](char letter) { return static_cast<unsigned char>(letter) < ' ' && letter != '\t'; };
+  if (std::any_of(line.begin(), line.end(), is_control)) return "its header has a control character within a line";
   static const std::set<std::string> kKeywords = {"ply", "format", "comment", "obj_info", "element", "property"};
   std::istringstream words(line);
   std::string keyword, name;
   if (!(words >> keyword) || kKeywords.count(keyword) == 0) return "its header has the line '" + line + "'";
+  if (keyword != "element") return "";
   double count = 0.0;
-  if (keyword == "element" && !(words >> name >> count && count >= 0.0))
-    return "its header has the line '" + line + "'";
-  num_elements += count;
+  if (!(words >> name >> count && count >= 0.0)) return "its header has the line '" + line + "'";
+  elements.count += count;
+  // assimp writes both into one array, which has room for the first of them.
+  if (!elements.names.insert(name == "tristrips" ? "face" : name).second) {
+    return "its header has the element '" + name + "' twice, or both faces and strips";
+  }
   return "";
 }
 
@@ -42,7 +55,7 @@ void checkPlyHeader(const std::string& content) {
   const std::string name = "cannot be read as .ply: ";
   std::istringstream file(content.substr(0, kMaxHeaderBytes));
   std::string line;
-  double num_elements = 0.0;
+  PlyElements elements;
   for (int i = 0; i < kMaxHeaderLines && std::getline(file, line); ++i) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (i == 0 && line != "ply") throw MeshError(name + "it does not begin with the line 'ply'");
@@ -50,11 +63,11 @@ void checkPlyHeader(const std::string& content) {
       // An element takes at least one byte.
       const double num_data_bytes =
           file.eof() ? 0.0 : static_cast<double>(content.size()) - static_cast<double>(file.tellg());
-      if (num_elements > 0.0 && num_elements <= num_data_bytes) return;
-      throw MeshError(name + "its header promises " + formatCount(num_elements) + " elements, " +
+      if (elements.count > 0.0 && elements.count <= num_data_bytes) return;
+      throw MeshError(name + "its header promises " + formatCount(elements.count) + " elements, " +
                       formatCount(num_data_bytes) + " bytes follow");
     }
-    const std::string problem = findPlyProblem(line, num_elements);
+    const std::string problem = findPlyProblem(line, elements);
     if (!problem.empty()) throw MeshError(name + problem);
   }
   throw MeshError(name + "its header has no line 'end_header'");
@@ -76,6 +89,21 @@ void forEachElement(const std::string& xml, const std::string& element, const Ch
   }
 }
 
+/// Whether one of NAME="VALUE" has that name; not within a value, nor at the end of a longer name.
+bool hasAttribute(const std::string& attributes, const std::string& name) {
+  for (std::size_t i = attributes.find_first_not_of(" \t\r\n"); i != std::string::npos;) {
+    const std::size_t equals = attributes.find('=', i);
+    if (equals == std::string::npos) return false;
+    if (attributes.compare(i, equals - i, name) == 0) return true;
+    const std::size_t quote = attributes.find_first_of("\"'", equals);
+    if (quote == std::string::npos) return false;
+    const std::size_t end = attributes.find(attributes[quote], quote + 1);
+    if (end == std::string::npos) return false;
+    i = attributes.find_first_not_of(" \t\r\n", end + 1);
+  }
+  return false;
+}
+
 /// assimp's Collada reader does not return from index lists that hold anything but integers, and crashes on arrays
 /// without count.
 void checkDaeText(const std::string& xml) {
@@ -90,8 +118,7 @@ void checkDaeText(const std::string& xml) {
   }
   for (const char* element : {"float_array", "Name_array", "IDREF_array"}) {
     forEachElement(xml, element, [&](const std::string& attributes, const std::string&) {
-      if (attributes.find("count=") == std::string::npos)
-        throw MeshError(name + "an element <" + element + "> has no count");
+      if (!hasAttribute(attributes, "count")) throw MeshError(name + "an element <" + element + "> has no count");
     });
   }
   for (const char* attribute : {" count=\"", " stride=\"", " offset=\""}) {

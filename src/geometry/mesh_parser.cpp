@@ -209,8 +209,12 @@ MeshParser::~MeshParser() = default;
 TriangleMesh MeshParser::parse(const std::string& content, const std::string& extension, double scale) {
   checkMeshContent(content, extension);
   try {
-    TriangleMesh mesh = data_->read(content, extension, scale);
-    data_->importer.FreeScene();
+    // assimp's PLY reader keeps the half-made mesh of a damaged file and would write the next file's vertices behind
+    // its end: an importer that has failed is not used again.
+    std::unique_ptr<Data> data = data_ ? std::move(data_) : std::make_unique<Data>();
+    TriangleMesh mesh = data->read(content, extension, scale);
+    data->importer.FreeScene();
+    data_ = std::move(data);
     return mesh;
   } catch (const MeshError&) {
     throw;

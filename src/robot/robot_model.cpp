@@ -105,6 +105,7 @@ RobotModel RobotModel::fromText(const std::string& urdf, const std::string& sour
   }
   for (const auto& entry : data->urdf->links_) {  // joints in a circle are parsed, and hang in the air
     if (data->tree.getSegments().count(entry.first) > 0) continue;
+    for (const auto& other : data->urdf->links_) other.second->child_links.clear();  // or they keep each other for ever
     throw RobotModelError(what + "does not connect link '" + entry.first + "' with its root '" + data->root + "'");
   }
   for (const auto& [name, joint] : data->urdf->joints_) {

@@ -6,9 +6,10 @@
 #include "depth_object_tracker/tools/input_error.h"
 #include "fuzz_input.h"
 
+#include <fcntl.h>
+
 #include <array>
 #include <filesystem>
-#include <fstream>
 
 namespace dot = depth_object_tracker;
 namespace fs = std::filesystem;
@@ -44,14 +45,25 @@ class SceneFolder {
   SceneFolder(const SceneFolder&) = delete;
   SceneFolder& operator=(const SceneFolder&) = delete;
 
-  void write(std::size_t which, const std::string& content) const {
-    std::ofstream(file(which), std::ios::binary) << content;
+  /// One file becomes that; the others are good ones.
+  void put(std::size_t which, const std::string& content) {
+    if (changed_ != which && changed_ < kGood.size()) write(changed_, kGood[changed_]);
+    changed_ = which;
+    write(which, content);
   }
   std::string file(std::size_t which) const { return (path_ / kFiles[which]).string(); }
   std::string path() const { return path_.string(); }
 
  private:
+  void write(std::size_t which, const std::string& content) const {
+    const int descriptor = open(file(which).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    if (descriptor < 0 || ::write(descriptor, content.data(), content.size()) != static_cast<ssize_t>(content.size()))
+      std::abort();
+    close(descriptor);
+  }
+
   fs::path path_;
+  std::size_t changed_ = kFiles.size();
 };
 
 /// Each may refuse its file with an InputError and nothing else.
@@ -66,10 +78,10 @@ void attempt(const Call& call) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const SceneFolder folder;
+  static SceneFolder folder;
   if (size == 0) return 0;
   const std::size_t which = data[0] % kFiles.size();
-  folder.write(which, dot::toText(data + 1, size - 1));
+  folder.put(which, dot::toText(data + 1, size - 1));
   if (which < 4) {
     attempt([&] {
       const dot::BopScene scene = dot::loadBopScene(folder.path(), {});
@@ -86,6 +98,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (view.width > 0 && view.height > 0) view.at(view.height - 1, view.width - 1);
     });
   }
-  if (which < kGood.size()) folder.write(which, kGood[which]);
   return 0;
 }

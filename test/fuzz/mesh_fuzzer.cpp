@@ -6,6 +6,7 @@
 #include "geometry/mesh_file_check.h"
 #include "geometry/mesh_parser.h"
 #include "geometry/mesh_reply.h"
+#include "mesh_fuzzer_memory.h"
 
 namespace dot = depth_object_tracker;
 

@@ -80,8 +80,12 @@ extern "C" int LLVMFuzzerInitialize(int*, char***) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   FuzzedDataProvider input(data, size);
-  const bool is_known = input.ConsumeIntegralInRange(0, 3) == 0;
-  const std::string urdf = is_known ? kArm : input.ConsumeRandomLengthString();
+  if (input.ConsumeIntegralInRange(0, 3) == 0) {
+    static const dot::RobotModel arm = dot::RobotModel::fromText(kArm, "robot_description");
+    useModel(arm, input);
+    return 0;
+  }
+  const std::string urdf = input.ConsumeRandomLengthString();
   std::optional<dot::RobotModel> model;
   try {
     if (input.ConsumeIntegralInRange(0, 63) == 0) {

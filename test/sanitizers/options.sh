@@ -13,6 +13,7 @@ use_sanitizer_options() {
     log=":log_path=$1/report:log_exe_name=1"
   fi
   export ASAN_OPTIONS="detect_stack_use_after_return=1:strict_string_checks=1$log"
+  export LSAN_OPTIONS="print_suppressions=0"  # what was suppressed is no finding
   export UBSAN_OPTIONS="print_stacktrace=1$log"
   export TSAN_OPTIONS="suppressions=$SANITIZERS/tsan.supp:second_deadlock_stack=1$log"
 }

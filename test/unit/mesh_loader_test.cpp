@@ -252,7 +252,8 @@ TEST_F(MeshLoader, DamagedDaeFilesAreExplained) {
   };
   EXPECT_NE(load("a.dae", damaged("<p>0 1", "<p>0 x")).find("<p> holds 'x"), std::string::npos);
   EXPECT_NE(load("a.dae", damaged("<p>0 1", "<p>0 1.5")).find("<p> holds '.5"), std::string::npos);
-  EXPECT_NE(load("a.dae", damaged(" count=\"12\"", "")).find("<float_array> has no count"), std::string::npos);
+  for (const char* other : {"", " account=\"12\"", " name=' count=\"12\"'"})
+    EXPECT_NE(load("a.dae", damaged(" count=\"12\"", other)).find("<float_array> has no count"), std::string::npos);
   EXPECT_NE(load("a.dae", damaged("stride=\"3\"", "stride=\"-3\"")).find("is not a count"), std::string::npos);
   EXPECT_NE(load("a.dae", damaged("count=\"12\"", "count=\"13\"")), kNoError);
   EXPECT_NE(load("a.dae", damaged("<p>0 1", "<p>0 9")), kNoError);

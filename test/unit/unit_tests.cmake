@@ -3,6 +3,7 @@ add_tracker_test(geometry_unit_tests SOURCES
   unit/depth_image_test.cpp
   unit/level_of_detail_test.cpp
   unit/mesh_loader_test.cpp
+  unit/mesh_ply_header_test.cpp
   unit/pinhole_camera_test.cpp
   unit/pose_test.cpp
   unit/stable_poses_test.cpp
