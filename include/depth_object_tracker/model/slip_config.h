@@ -11,8 +11,8 @@ struct SlipConfig {
   double kinematics_position_error_m_per_s = 0.006;  ///< the robot's own error: slow, what is below is no slip
   double kinematics_rotation_error_rad_per_s = 0.025;
   double kinematics_relative_error = 0.04;  ///< share of the hand's velocity that may be wrong on top of that
-  double pushed_arm_error_m_per_s = 0.025;  ///< how fast a hand yields to a push that its joints do not see, each axis
-  double slip_threshold = 5.0;  ///< squared Mahalanobis length of the motion in the hand, beyond what a push explains
+  double pushed_arm_error_m_per_s = 0.0;    ///< how fast a hand yields to a push that its joints do not see, each axis
+  double slip_threshold = 8.0;  ///< squared Mahalanobis length of the motion in the hand, beyond what a push explains
   double slip_noise_scale_max = 4.0;  ///< the noise in the hand is widened in a slip, at most so much; 1 = never
 };
 
