@@ -14,6 +14,7 @@ add_library(depth_object_tracker_core SHARED
   src/filter/score_scatter.cpp
   src/filter/tile_fit.cpp
   src/filter/tile_likelihood.cpp
+  src/filter/transition_kernel.cpp
   src/filter/worker_pool.cpp
   src/geometry/child_process.cpp
   src/geometry/convex_hull.cpp
@@ -52,6 +53,7 @@ add_library(depth_object_tracker_core SHARED
   src/tracker/estimate_board.cpp
   src/tracker/frame_budget.cpp
   src/tracker/frame_clock.cpp
+  src/tracker/free_turn.cpp
   src/tracker/held_view.cpp
   src/tracker/input_check.cpp
   src/tracker/live_parameters.cpp
@@ -70,6 +72,7 @@ add_library(depth_object_tracker_core SHARED
   src/tracker/pose_search.cpp
   src/tracker/reacquisition.cpp
   src/tracker/resolution.cpp
+  src/tracker/screw_axis.cpp
   src/tracker/sparse_fit.cpp
   src/tracker/status_monitor.cpp
   src/tracker/table_draws.cpp

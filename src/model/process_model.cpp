@@ -84,6 +84,12 @@ Vector6d ProcessStep::dampedVelocity(const Vector6d& velocity) const {
   return velocity * velocity_decay_;
 }
 
+Vector6d ProcessStep::meanVariances() const {
+  Vector6d variances = Vector6d::Zero();
+  for (int k = 0; k < num_components_; ++k) variances += component(k).weight * component(k).variances;
+  return variances;
+}
+
 double ProcessStep::logDensity(const Vector6d& displacement) const {
   const double usual = components_[0].logDensity(displacement) + std::log(components_[0].weight);
   if (num_components_ == 1) return usual;

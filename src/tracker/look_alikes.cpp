@@ -5,9 +5,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -32,6 +32,7 @@ constexpr std::size_t kClimbsWhenNew = 3;
 constexpr double kMostNat = 4.0;
 constexpr double kWorthFollowingNat = 1.5;  // less is chance, in every image
 constexpr double kForgottenHalfLifeS = 0.25;
+constexpr std::array<double, 4> kSmallTurnsRad = {-0.2, -0.1, 0.1, 0.2};
 
 using Triangle = std::array<std::uint32_t, 3>;
 
@@ -131,43 +132,6 @@ bool isNearAny(const Pose& T, const std::vector<Pose>& others, const Symmetries&
   return near(Pose::Identity()) || std::any_of(others.begin(), others.end(), near);
 }
 
-/// The line that a motion turns about.
-struct ScrewAxis {
-  Eigen::Vector3d direction, point;
-};
-
-ScrewAxis axisOf(const Pose& T) {
-  const Eigen::Vector3d direction = Eigen::AngleAxisd(T.linear()).axis();
-  const Eigen::Matrix3d moved = Eigen::Matrix3d::Identity() - T.linear() + direction * direction.transpose();
-  const Eigen::Vector3d across = T.translation() - direction.dot(T.translation()) * direction;
-  return {direction, moved.fullPivLu().solve(across)};
-}
-
-/// Small turns about axes that several look-alikes turn about: a mug's, not a box's.
-std::vector<Pose> smallTurns(const std::vector<Pose>& look_alikes) {
-  constexpr double kSameAxisCosine = 0.97;
-  constexpr std::size_t kLeastLookAlikes = 4;
-  std::vector<ScrewAxis> axes;
-  for (const Pose& T : look_alikes) {
-    const ScrewAxis axis = axisOf(T);
-    const auto isSame = [&](const ScrewAxis& other) {
-      return std::abs(other.direction.dot(axis.direction)) > kSameAxisCosine;
-    };
-    const auto alike =
-        std::count_if(look_alikes.begin(), look_alikes.end(), [&](const Pose& other) { return isSame(axisOf(other)); });
-    if (static_cast<std::size_t>(alike) < kLeastLookAlikes || std::any_of(axes.begin(), axes.end(), isSame)) continue;
-    axes.push_back(axis);
-  }
-  std::vector<Pose> turns;
-  for (const ScrewAxis& axis : axes) {
-    for (const double turn : {-0.2, -0.1, 0.1, 0.2}) {
-      turns.push_back(Eigen::Translation3d(axis.point) * Eigen::AngleAxisd(turn, axis.direction) *
-                      Eigen::Translation3d(-axis.point));
-    }
-  }
-  return turns;
-}
-
 }  // namespace
 
 LookAlikes findLookAlikes(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object,
@@ -191,7 +155,7 @@ LookAlikes findLookAlikes(const TriangleMesh& mesh, const Eigen::Vector3d& centr
       look_alikes.far.push_back(T);
     }
   }
-  look_alikes.near = smallTurns(look_alikes.far);
+  look_alikes.axes = commonAxes(look_alikes.far);
   return look_alikes;
 }
 
@@ -248,7 +212,9 @@ std::optional<Pose> LookAlikeCheck::findNearby(DepthLikelihood& likelihood, cons
   constexpr ClimbSchedule kClimbNear = {0.004, 0.002, 5};
   const Pose* best = nullptr;
   poses_.clear();
-  for (const Pose& T : look_alikes_.near) poses_.push_back(T_camera_centre * T);
+  for (const ScrewAxis& axis : look_alikes_.axes) {
+    for (const double turn : kSmallTurnsRad) poses_.push_back(T_camera_centre * turnAbout(axis, turn));
+  }
   const double now = likelihood.logLikelihood(T_camera_centre, 0);
   double highest = now - kPromisingNat / exponent;
   for (const Pose& pose : poses_) {

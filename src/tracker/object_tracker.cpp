@@ -61,6 +61,7 @@ ObjectTracker::Implementation::Implementation(ObjectModel object_model, const Tr
       search(config.filter.seed),
       held_view(object.mesh),
       look_alikes(findLookAlikes(object.mesh, centre_object, aboutCentre(object.symmetries, centre_object))),
+      free_turn(look_alikes.lookAlikes().axes),
       reacquisition(
           std::make_unique<PoseFinder>(shape, object.mesh, diameter_m, config.pixel, config.filter.seed, pool)) {}
 
@@ -91,6 +92,7 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
   self.reacquired_s = self.moved_s = Implementation::kLongAgoS;
   self.calibration.restart();
   self.look_alikes.restart();
+  self.free_turn.restart(std::sqrt(self.initial_variances->tail<3>().maxCoeff()));
   self.reacquisition.restart();
   self.follows_hand = false;
   self.slip.reset();

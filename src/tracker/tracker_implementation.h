@@ -8,6 +8,7 @@
 #include "depth_object_tracker/model/slip_estimator.h"
 #include "depth_object_tracker/tracker/doubt.h"
 #include "depth_object_tracker/tracker/frame_clock.h"
+#include "depth_object_tracker/tracker/free_turn.h"
 #include "depth_object_tracker/tracker/held_view.h"
 #include "depth_object_tracker/tracker/look_alikes.h"
 #include "depth_object_tracker/tracker/object_tracker.h"
@@ -63,6 +64,7 @@ class ObjectTracker::Implementation {
   std::optional<HiddenStart> hidden_start;  // an initial pose of which nothing was seen yet, carried by the hand
   Hypotheses hypotheses;                    // of this image
   LookAlikeCheck look_alikes;
+  FreeTurn free_turn;
   TurnPrior turn_prior;  // of an estimate that was found
   Reacquisition reacquisition;
   bool is_seen = false;                       // well, in the last image

@@ -223,6 +223,8 @@ void ObjectTracker::Implementation::calibrate(FilterEstimate& estimate, double d
   estimate.pose.covariance =
       calibration.calibrated(estimate.pose.covariance, likelihood.scatterOfScores(estimate.pose.mean, 0), exponent,
                              step_in_use->component(0).variances, shape.radius_m, dt_s);
+  free_turn.update(likelihood, estimate.pose.mean, exponent, step_in_use->meanVariances()[3]);
+  estimate.pose.covariance = free_turn.widened(estimate.pose.covariance, estimate.pose.mean);
 }
 
 double ObjectTracker::Implementation::diffusionScale() const {

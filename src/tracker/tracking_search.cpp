@@ -61,6 +61,7 @@ bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, doubl
   constexpr double kExpectedSquared = 6.0;
   if (region.is_known && squaredDistance(*found, region) < kExpectedSquared) {
     turn_prior.stddev_rad = std::sqrt(region.variances[3] + region.moved_on[3] * region.moved_on[3]);
+    free_turn.restart(turn_prior.stddev_rad);
   }
   reacquired_s = 0.0;
   return true;
@@ -107,6 +108,7 @@ void ObjectTracker::Implementation::startAt(const Pose& T_camera_centre) {
   moved_s = 0.0;
   look_alikes.restart();
   turn_prior = TurnPrior();
+  free_turn.restart(turn_prior.stddev_rad);
   filter.initialise(T_camera_centre);
   likelihood.resetOcclusion();
   status.restart();

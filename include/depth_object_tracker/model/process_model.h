@@ -53,6 +53,9 @@ class ProcessStep {
   const ProcessComponent& component(int k) const { return components_[static_cast<std::size_t>(k)]; }
   const ProcessComponent& widestComponent() const { return component(num_components_ - 1); }
 
+  /// Of the mixture [m^2, rad^2].
+  Vector6d meanVariances() const;
+
   /// Log density [nat] of the mixture at a displacement from the predicted pose.
   double logDensity(const Vector6d& displacement) const;
 

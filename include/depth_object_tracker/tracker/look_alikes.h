@@ -6,6 +6,7 @@
 #include "depth_object_tracker/filter/depth_likelihood.h"
 #include "depth_object_tracker/geometry/symmetry.h"
 #include "depth_object_tracker/tracker/oriented_points.h"
+#include "depth_object_tracker/tracker/screw_axis.h"
 
 #include <functional>
 #include <limits>
@@ -15,8 +16,8 @@
 namespace depth_object_tracker {
 
 struct LookAlikes {
-  std::vector<Pose> far;   ///< T_centre_centre, the most similar first; none near the identity
-  std::vector<Pose> near;  ///< small turns about the axes of those that an object can turn about all the way
+  std::vector<Pose> far;        ///< T_centre_centre, the most similar first; none near the identity
+  std::vector<ScrewAxis> axes;  ///< that the object can turn about all the way
 };
 
 /// @param symmetries about the centre: what looks exactly the same is no look-alike.

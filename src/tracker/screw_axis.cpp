@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "depth_object_tracker/tracker/screw_axis.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace depth_object_tracker {
+
+ScrewAxis axisOf(const Pose& T) {
+  const Eigen::Vector3d direction = Eigen::AngleAxisd(T.linear()).axis();
+  const Eigen::Matrix3d moved = Eigen::Matrix3d::Identity() - T.linear() + direction * direction.transpose();
+  const Eigen::Vector3d across = T.translation() - direction.dot(T.translation()) * direction;
+  return {direction, moved.fullPivLu().solve(across)};
+}
+
+Pose turnAbout(const ScrewAxis& axis, double angle_rad) {
+  return Eigen::Translation3d(axis.point) * Eigen::AngleAxisd(angle_rad, axis.direction) *
+         Eigen::Translation3d(-axis.point);
+}
+
+std::vector<ScrewAxis> commonAxes(const std::vector<Pose>& motions) {
+  constexpr double kSameAxisCosine = 0.97;
+  constexpr std::ptrdiff_t kLeastMotions = 4;
+  std::vector<ScrewAxis> axes;
+  for (const Pose& T : motions) {
+    const ScrewAxis axis = axisOf(T);
+    const auto isSame = [&](const ScrewAxis& other) {
+      return std::abs(other.direction.dot(axis.direction)) > kSameAxisCosine;
+    };
+    const auto alike =
+        std::count_if(motions.begin(), motions.end(), [&](const Pose& other) { return isSame(axisOf(other)); });
+    if (alike >= kLeastMotions && std::none_of(axes.begin(), axes.end(), isSame)) axes.push_back(axis);
+  }
+  return axes;
+}
+
+}  // namespace depth_object_tracker
