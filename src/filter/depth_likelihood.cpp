@@ -172,7 +172,13 @@ void DepthLikelihood::prepareWholeImage(double level_error_m) {
 CellBox DepthLikelihood::prepareRegion(const std::vector<Pose>& T_camera_centre) {
   if (!is_level_chosen_) chooseLevel(T_camera_centre);
   CellBox box;
-  for (const Pose& pose : T_camera_centre) box = unite(box, boundingBox(pose));
+  for (const Pose& pose : T_camera_centre) {
+    // The corners of the object's box, by which a pose is found to be prepared, may stick out of the sphere.
+    box = unite(box, boundingBox(pose));
+    if (pose.translation().allFinite()) {
+      box = unite(box, TileRenderer::coveredBox(*object_, toObject(pose), image_.grid().camera));
+    }
+  }
   image_.prepare(box);
   return box;
 }

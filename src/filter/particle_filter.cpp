@@ -155,7 +155,9 @@ void ParticleFilter::resampleIfNeeded(PoseLikelihood& likelihood) {
   predicted_.resize(count);
   log_proposal_ratio_.resize(count);
   likelihood.resample(source_);
-  lost_spread_ += posterior_covariance_ / std::max(kLeastLineages, effectiveSampleSize(weights_));
+  // The paper's filter is left as it is.
+  if (config_.proposal == Proposal::kInformed)
+    lost_spread_ += posterior_covariance_ / std::max(kLeastLineages, effectiveSampleSize(weights_));
   weights_.assign(count, 1.0 / static_cast<double>(count));
 }
 

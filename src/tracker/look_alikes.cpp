@@ -26,7 +26,7 @@ constexpr int kAlignments = 6;
 
 constexpr double kBroadM = 0.012;
 constexpr ClimbSchedule kClimb = {kBroadM, 0.002, 5};
-constexpr double kNearbyNat = 3.0, kSurelyNat = 8.0, kUsualTurnRad = 0.25;
+constexpr double kNearbyNat = 3.0, kSurelyNat = 8.0;
 constexpr double kPromisingNat = 5.0, kPerhapsPromisingNat = 30.0;
 constexpr std::size_t kClimbsWhenNew = 3;
 constexpr double kMostNat = 4.0;
@@ -120,8 +120,7 @@ Overlap overlapAt(const std::vector<OrientedPoint>& surface, std::size_t queries
 
 /// Evidence [nat] that a turn needs: the farther, the surer.
 double needed(const Pose& from, const Pose& to, const TurnPrior& prior) {
-  const double stddev_rad = prior.was_followed ? kUsualTurnRad : prior.stddev_rad;
-  const double turned = angle(from.linear().transpose() * to.linear()) / stddev_rad;
+  const double turned = angle(from.linear().transpose() * to.linear()) / prior.stddev_rad;
   return kSurelyNat + 0.5 * turned * turned;
 }
 
@@ -168,8 +167,9 @@ void LookAlikeCheck::rankCandidates(DepthLikelihood& likelihood, const Pose& T_c
   }
   next_ = (next_ + count) % look_alikes_.far.size();
   if (pending_) poses_.push_back(T_camera_centre * pending_->T_centre_centre);
+  poses_.push_back(T_camera_centre);
   likelihood.prepare(poses_);
-  if (pending_) poses_.pop_back();
+  poses_.resize(count);
   candidates_.clear();
   for (const Pose& pose : poses_) candidates_.push_back({likelihood.broadLogLikelihood(pose, kBroadM, 0), pose});
   std::sort(candidates_.begin(), candidates_.end(),
@@ -215,6 +215,9 @@ std::optional<Pose> LookAlikeCheck::findNearby(DepthLikelihood& likelihood, cons
   for (const ScrewAxis& axis : look_alikes_.axes) {
     for (const double turn : kSmallTurnsRad) poses_.push_back(T_camera_centre * turnAbout(axis, turn));
   }
+  if (poses_.empty()) return std::nullopt;
+  poses_.push_back(T_camera_centre);
+  likelihood.prepare(poses_);
   const double now = likelihood.logLikelihood(T_camera_centre, 0);
   double highest = now - kPromisingNat / exponent;
   for (const Pose& pose : poses_) {

@@ -70,6 +70,15 @@ double worthFollowing(const SearchRegion& region, double remoteness) {
   return between(0.3, 1.2 + (region.everywhere ? 0.0 : kMoreIfHidden), remoteness);
 }
 
+/// Evidence [nat] against a pose to which an object that was surely followed could hardly have moved; no more than that
+/// it was something else that was followed.
+double unreachable(const FoundPose& one, const Pose& T_camera_centre, const OtherPoses& others) {
+  constexpr double kMostNat = 4.0;
+  if (!others.reach) return 0.0;
+  const Eigen::Vector3d moved = one.T_camera_centre.translation() - T_camera_centre.translation();
+  return std::min(kMostNat, 0.5 * moved.cwiseAbs2().cwiseQuotient(*others.reach).sum());
+}
+
 double fitOfWhatIsSeen(const PoseAssessment& assessment) {
   const double visible = assessment.visible_pixels / std::max(1, assessment.measured_pixels);
   return findQuality(assessment) / std::max(0.05, visible);
@@ -211,7 +220,9 @@ std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const
     const bool is_here = (best->T_camera_centre.translation() - T_camera_centre.translation()).norm() < kSameM;
     const double more = best->assessment.log_likelihood / std::max(1.0, now.assessment.log_likelihood);
     const bool explains_more = more > (is_here ? 1.0 : kExplainsMore);
-    const double needed = std::max(kSureByItself, logOdds(now) + (is_here ? kLikelier : kMuchLikelier));
+    const double needed =
+        std::max(kSureByItself,
+                 logOdds(now) + (is_here ? kLikelier : kMuchLikelier + unreachable(*best, T_camera_centre, others)));
     if (explains_more && logOdds(*best) > needed) return best->T_camera_centre;
     return std::nullopt;
   }

@@ -71,6 +71,7 @@ class ObjectTracker::Implementation {
   double seen_s = 0.0;                        // for how long, without a break
   double unseen_s = 0.0;                      // since the object was last seen well
   PoseStatistics last_mean;                   // of the centre
+  Vector6d last_velocity = Vector6d::Zero();  // as particles' velocities are
   double seen_distance_m = 0.0;               // of the centre, when the object was last surely seen
   Vector6d seen_velocity = Vector6d::Zero();  // of the centre, when the object was last seen well
   bool is_anywhere = false;                   // nothing is known of the pose yet
@@ -128,6 +129,8 @@ class ObjectTracker::Implementation {
   void startAt(const Pose& T_camera_centre);
   /// Moves to a pose that looks alike but explains the image better.
   void turnToLookAlike(FilterEstimate& estimate, PoseAssessment& assessment, double dt_s);
+  /// About an axis that the image does not show, to the middle of what may be.
+  void turnToMiddle(FilterEstimate& estimate, PoseAssessment& assessment, double dt_s);
   /// Particles' velocities are relative to the hand while it is followed: hand over at grasp and release.
   void followHand(const ProcessStep& step, bool follows, double dt_s);
   void estimateSlip(const FilterEstimate& estimate, double dt_s);

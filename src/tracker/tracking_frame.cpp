@@ -79,6 +79,7 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
     assessment = assess(estimate);
   }
   turnToLookAlike(estimate, assessment, time.dt_s);
+  turnToMiddle(estimate, assessment, time.dt_s);
   calibrate(estimate, time.dt_s);
   full_resolution_pixels = assessment.covered_pixels * static_cast<double>(grid.factor * grid.factor);
   status.update(assessment, time.dt_s, is_blind);
@@ -204,6 +205,7 @@ void ObjectTracker::Implementation::rememberFit(const FilterEstimate& estimate, 
   // A pose that had to be searched is not one that was followed.
   moved_s = status.state() == TrackerState::kInitializing ? 0.0 : moved_s + dt_s;
   last_mean = estimate.pose;
+  last_velocity = estimate.velocity;
   constexpr double kSurelyAfterS = 1.0;  // what was only just found may be something else
   if (seen && moved_s > kSurelyAfterS) seen_distance_m = estimate.pose.mean.translation().z();
   if (seen) seen_velocity = estimate.velocity + hand_velocity;
@@ -223,7 +225,6 @@ void ObjectTracker::Implementation::calibrate(FilterEstimate& estimate, double d
   estimate.pose.covariance =
       calibration.calibrated(estimate.pose.covariance, likelihood.scatterOfScores(estimate.pose.mean, 0), exponent,
                              step_in_use->component(0).variances, shape.radius_m, dt_s);
-  free_turn.update(likelihood, estimate.pose.mean, exponent, step_in_use->meanVariances()[3]);
   estimate.pose.covariance = free_turn.widened(estimate.pose.covariance, estimate.pose.mean);
 }
 

@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kSearchEverywhereAfterS = 3.0;
 constexpr double kSettledAfterS = 3.0;
+constexpr double kUsualTurnRad = 0.25;
+constexpr double kTrustedAfterS = 2.0;
 constexpr double kDoubtfulAfterFindS = 0.7;
 constexpr double kDoubtedAtFirstS = 0.12, kBetweenChecksS = 0.05;  // in every image, and then in some
 constexpr double kDoubtfulReachS = 1.5;                            // as far as after this long unseen, at most
@@ -64,6 +66,7 @@ bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, doubl
     free_turn.restart(turn_prior.stddev_rad);
   }
   reacquired_s = 0.0;
+  doubt.found();
   return true;
 }
 
@@ -85,6 +88,10 @@ bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth
   others.everywhere = look == Doubt::Look::kEverywhere;
   others.by_likelihood = just_found || others.everywhere;
   others.variances = just_found ? anyTurnVariances() : searchVariances(std::min(doubt.poorSince(), kDoubtfulReachS));
+  if (moved_s > kTrustedAfterS) {
+    const Vector6d moved_on = movedOn(seen_velocity, doubt.poorSince());
+    others.reach = (searchVariances(doubt.poorSince()) + moved_on.cwiseAbs2()).head<3>();
+  }
   const std::optional<Pose> better = reacquisition.findBetter(depth, camera_in_use, T_camera_centre, others);
   if (better) startAt(*better);
   doubt.looked(look);
@@ -95,11 +102,29 @@ void ObjectTracker::Implementation::turnToLookAlike(FilterEstimate& estimate, Po
   if (!mayReacquire() || is_blind || initial_variances) return;
   if (assessment.visibleShare() < kSeenAboveVisibleFraction) return;
   const double exponent = likelihoodExponent(config.filter, likelihood.image().grid().factor);
-  turn_prior.was_followed = moved_s > kSettledAfterS;
-  const std::optional<Pose> better = look_alikes.findBetter(likelihood, estimate.pose.mean, exponent, turn_prior, dt_s);
+  TurnPrior prior = turn_prior;
+  prior.was_followed = moved_s > kSettledAfterS;
+  if (prior.was_followed) prior.stddev_rad = free_turn.isFree() ? free_turn.stddevRad() : kUsualTurnRad;
+  const std::optional<Pose> better = look_alikes.findBetter(likelihood, estimate.pose.mean, exponent, prior, dt_s);
   if (!better) return;
+  free_turn.turned(estimate.pose.mean.inverse() * *better);
   filter.moveInObject(estimate.pose.mean.inverse() * *better);
   estimate.pose.mean = *better;
+  assessment = assess(estimate);
+}
+
+void ObjectTracker::Implementation::turnToMiddle(FilterEstimate& estimate, PoseAssessment& assessment, double dt_s) {
+  if (is_blind || !mayReacquire() || !step_in_use) return;
+  const double exponent = likelihoodExponent(config.filter, likelihood.image().grid().factor);
+  const FreeTurn::Motion motion = {step_in_use->meanVariances()[3], estimate.velocity.tail<3>(), dt_s};
+  if (assessment.visibleShare() < kSeenAboveVisibleFraction) return free_turn.wait(estimate.pose.mean, motion);
+  const Pose predicted = step_in_use->predict(last_mean.mean, last_velocity);
+  const std::optional<Pose> turn =
+      free_turn.update(likelihood, predicted, estimate.pose.mean, exponent,
+                       {step_in_use->meanVariances()[3], estimate.velocity.tail<3>(), dt_s});
+  if (!turn) return;
+  filter.moveInObject(*turn);
+  estimate.pose.mean = estimate.pose.mean * *turn;
   assessment = assess(estimate);
 }
 

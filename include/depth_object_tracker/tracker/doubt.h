@@ -3,6 +3,8 @@
 // gone wrong, ever more rarely where it merely fits less than it could.
 #pragma once
 
+#include <limits>
+
 namespace depth_object_tracker {
 
 class Doubt {
@@ -18,6 +20,8 @@ class Doubt {
 
   /// What the next image asks for.
   Look look() const;
+  /// What was found may have been something else, and the object itself may come into view later.
+  void found();
   /// Tells that the image was looked at, in vain.
   void looked(Look look);
   /// What is seen fits worse than the sensor model expects: perhaps a neighbouring mode.
@@ -31,6 +35,8 @@ class Doubt {
   double poor_s_ = 0.0;
   double shaken_s_ = 1e6;  // since the image contradicted the pose
   double since_look_s_ = 1e6;
+  double since_found_s_ = 1e6;
+  double next_check_s_ = std::numeric_limits<double>::infinity();  // after a find
   double interval_s_ = 0.3;
 };
 

@@ -5,6 +5,7 @@
 #include "depth_object_tracker/filter/depth_likelihood.h"
 #include "depth_object_tracker/tracker/screw_axis.h"
 
+#include <optional>
 #include <vector>
 
 namespace depth_object_tracker {
@@ -14,18 +15,37 @@ namespace depth_object_tracker {
 /// likelihood still is rough by a nat or two, and a cloud settles in one of its dents.
 class FreeTurn {
  public:
+  /// Between two images.
+  struct Motion {
+    double process_variance_rad2 = 0.0;                          ///< of a rotation about one axis
+    Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< as estimated, camera axes [rad/s]
+    double dt_s = 0.0;
+  };
+
   explicit FreeTurn(std::vector<ScrewAxis> axes);
 
   /// @param stddev_rad of the angle, from now on; infinite = nothing is known of it.
   void restart(double stddev_rad);
 
-  /// An image about which the estimate is T_camera_centre. @param exponent gamma of the filter.
-  /// @param process_variance_rad2 of a rotation about one axis since the last image.
-  void update(DepthLikelihood& likelihood, const Pose& T_camera_centre, double exponent, double process_variance_rad2);
+  /// @param predicted, estimate T_camera_centre before and after the image. @param exponent gamma of the filter.
+  /// @param motion since the last image.
+  /// @return turn, in the centre's axes, that takes the estimate to the middle of what may be; none where the image
+  /// shows the angle.
+  std::optional<Pose> update(DepthLikelihood& likelihood, const Pose& predicted, const Pose& estimate, double exponent,
+                             const Motion& motion);
+
+  /// An image that shows too little to say anything of the angle.
+  void wait(const Pose& estimate, const Motion& motion);
+
+  /// The estimate was turned to what looks alike and fits better, by a motion in the centre's axes: a finger makes a
+  /// fine handle where the mug's own is hidden.
+  void turned(const Pose& T_before_now);
 
   /// @return the covariance of the centre's pose, no narrower about the axes than their angles are.
   Matrix6d widened(const Matrix6d& covariance, const Pose& T_camera_centre) const;
 
+  /// The last image allows other angles about some axis.
+  bool isFree() const;
   /// Of the axis that the least is known about; 0 without axes.
   double stddevRad() const;
 
@@ -33,6 +53,7 @@ class FreeTurn {
   struct Axis {
     ScrewAxis axis;
     double variance = 0.0;  // [rad^2]
+    double doubted = 0.0;   // [rad^2], what it may be besides if the last turn was wrong
     bool is_free = false;   // the last image allows other angles
   };
   /// How far the object can be turned one way, in steps, until the image contradicts.

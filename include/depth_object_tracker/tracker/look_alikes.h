@@ -28,7 +28,7 @@ struct TurnPrior {
   /// From a pose that was right: the farther a turn, the surer it must be (a finger makes a fine handle where the mug's
   /// own is hidden).
   bool was_followed = true;
-  /// Not followed: how far from the estimate the rotation may be [rad]; infinite = any is as likely.
+  /// How far from the estimate the rotation may be [rad]; infinite = any is as likely.
   double stddev_rad = std::numeric_limits<double>::infinity();
 };
 

@@ -19,7 +19,9 @@ struct SearchRegion {
   bool is_known = true;                   ///< false: anywhere in the image
   bool everywhere = false;                ///< is_known: in the rest of the image, too, else in every third one
   bool on_table = false;                  ///< not is_known: it rests on a plane that the image shows
-  KnownOccluders* occluders = nullptr;    ///< the object is not where one of them is seen; null = none
+  /// Of where the object may be [m^2], about an estimate that was surely followed; none = anywhere.
+  std::optional<Eigen::Vector3d> reach;
+  KnownOccluders* occluders = nullptr;  ///< the object is not where one of them is seen; null = none
 };
 
 /// Of a pose from where the object is expected, in squared standard deviations; 6 on average for the right one.
@@ -30,7 +32,9 @@ struct OtherPoses {
   Vector6d variances = Vector6d::Ones();  ///< [m^2, rad^2] around the estimate
   bool everywhere = false;                ///< also in the rest of the image
   bool by_likelihood = false;             ///< what explains more of the image is better, not what fits better
-  KnownOccluders* occluders = nullptr;    ///< the object is not where one of them is seen; null = none
+  /// Of where the object may be [m^2], about an estimate that was surely followed; none = anywhere.
+  std::optional<Eigen::Vector3d> reach;
+  KnownOccluders* occluders = nullptr;  ///< the object is not where one of them is seen; null = none
 };
 
 class Reacquisition {
