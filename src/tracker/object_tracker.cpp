@@ -89,7 +89,7 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
   self.doubt.restart();
   self.initialising_s = 0.0;
   self.is_blind = self.is_anywhere = self.is_on_table = false;
-  self.reacquired_s = self.moved_s = Implementation::kLongAgoS;
+  self.reacquired_s = self.moved_s = self.since_sure_s = Implementation::kLongAgoS;
   self.calibration.restart();
   self.look_alikes.restart();
   self.free_turn.restart(std::sqrt(self.initial_variances->tail<3>().maxCoeff()));

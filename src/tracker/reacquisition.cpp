@@ -144,14 +144,15 @@ double Reacquisition::logOdds(const FoundPose& found) const {
   return findLogOdds(found.assessment, usualScore());
 }
 
-void Reacquisition::learn(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre) {
+double Reacquisition::learn(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre) {
   constexpr double kUp = 0.3, kDown = 0.1;  // parts may be hidden, or seen from a side where the mesh is worse
   finder_->setImage(depth, camera, std::max(0.2, T_camera_centre.translation().z()));
   const PoseAssessment assessment = finder_->judge(T_camera_centre).assessment;
-  if (!(assessment.expected > 0.0)) return;
+  if (!(assessment.expected > 0.0)) return -std::numeric_limits<double>::infinity();
   const double score = std::clamp(assessment.achieved / assessment.expected, 0.5, 1.0);
   if (!usual_score_) usual_score_ = score;
   *usual_score_ += (score > *usual_score_ ? kUp : kDown) * (score - *usual_score_);
+  return findLogOdds(assessment, *usual_score_);
 }
 
 void Reacquisition::countSameWinner(const Pose& T_camera_centre) {
@@ -213,17 +214,18 @@ std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const
   const FoundPose now = finder_->judge(T_camera_centre);
   constexpr double kExplainsMore = 1.1;
   if (!found_.empty() && others.everywhere) {
-    constexpr double kMuchLikelier = 2.0, kSureByItself = 2.0, kLikelier = 1.0;
+    constexpr double kMuchLikelier = 2.0, kSureByItself = 2.0, kLikelier = 1.0, kFarLikelier = 6.0;
     const auto best = std::max_element(found_.begin(), found_.end(), [this](const FoundPose& a, const FoundPose& b) {
       return logOdds(a) < logOdds(b);
     });
     const bool is_here = (best->T_camera_centre.translation() - T_camera_centre.translation()).norm() < kSameM;
     const double more = best->assessment.log_likelihood / std::max(1.0, now.assessment.log_likelihood);
-    const bool explains_more = more > (is_here ? 1.0 : kExplainsMore);
-    const double needed =
-        std::max(kSureByItself,
-                 logOdds(now) + (is_here ? kLikelier : kMuchLikelier + unreachable(*best, T_camera_centre, others)));
-    if (explains_more && logOdds(*best) > needed) return best->T_camera_centre;
+    const double far = is_here ? 0.0 : unreachable(*best, T_camera_centre, others);
+    const double odds = logOdds(*best) - far, odds_now = logOdds(now);
+    const bool explains_more = more > (is_here ? 1.0 : kExplainsMore) || odds > odds_now + kFarLikelier;
+    if (explains_more && odds > std::max(kSureByItself, odds_now + (is_here ? kLikelier : kMuchLikelier))) {
+      return best->T_camera_centre;
+    }
     return std::nullopt;
   }
   if (!found_.empty() && others.by_likelihood) {

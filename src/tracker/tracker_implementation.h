@@ -80,6 +80,7 @@ class ObjectTracker::Implementation {
   double moved_s = kLongAgoS;  // since the filter was started anew, at a pose that was searched
   double reacquired_s = kLongAgoS;   // since the object was found again
   double since_check_s = kLongAgoS;  // since its pose was compared with others
+  double since_sure_s = kLongAgoS;   // since the pose was surely the object's
   Doubt doubt;
   double since_learnt_s = kLongAgoS;       // how well the object fits where it is seen
   double initialising_s = 0.0;             // since an initial pose that does not fit yet

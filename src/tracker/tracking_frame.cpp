@@ -202,6 +202,7 @@ void ObjectTracker::Implementation::rememberFit(const FilterEstimate& estimate, 
   seen_s = seen ? seen_s + dt_s : 0.0;
   reacquired_s += dt_s;
   since_check_s += dt_s;
+  since_sure_s += dt_s;
   // A pose that had to be searched is not one that was followed.
   moved_s = status.state() == TrackerState::kInitializing ? 0.0 : moved_s + dt_s;
   last_mean = estimate.pose;

@@ -10,7 +10,7 @@ namespace {
 constexpr double kSearchEverywhereAfterS = 3.0;
 constexpr double kSettledAfterS = 3.0;
 constexpr double kUsualTurnRad = 0.25;
-constexpr double kTrustedAfterS = 2.0;
+constexpr double kTrustedForS = 2.0, kSureNat = 2.0;
 constexpr double kDoubtfulAfterFindS = 0.7;
 constexpr double kDoubtedAtFirstS = 0.12, kBetweenChecksS = 0.05;  // in every image, and then in some
 constexpr double kDoubtfulReachS = 1.5;                            // as far as after this long unseen, at most
@@ -88,9 +88,9 @@ bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth
   others.everywhere = look == Doubt::Look::kEverywhere;
   others.by_likelihood = just_found || others.everywhere;
   others.variances = just_found ? anyTurnVariances() : searchVariances(std::min(doubt.poorSince(), kDoubtfulReachS));
-  if (moved_s > kTrustedAfterS) {
-    const Vector6d moved_on = movedOn(seen_velocity, doubt.poorSince());
-    others.reach = (searchVariances(doubt.poorSince()) + moved_on.cwiseAbs2()).head<3>();
+  if (since_sure_s < kTrustedForS) {
+    const Vector6d moved_on = movedOn(seen_velocity, since_sure_s);
+    others.reach = (searchVariances(since_sure_s) + moved_on.cwiseAbs2()).head<3>();
   }
   const std::optional<Pose> better = reacquisition.findBetter(depth, camera_in_use, T_camera_centre, others);
   if (better) startAt(*better);
@@ -131,6 +131,7 @@ void ObjectTracker::Implementation::turnToMiddle(FilterEstimate& estimate, PoseA
 void ObjectTracker::Implementation::startAt(const Pose& T_camera_centre) {
   is_anywhere = false;
   moved_s = 0.0;
+  since_sure_s = kLongAgoS;
   look_alikes.restart();
   turn_prior = TurnPrior();
   free_turn.restart(turn_prior.stddev_rad);
@@ -148,7 +149,7 @@ void ObjectTracker::Implementation::learnFit(const DepthImageView& depth, double
   const bool is_sure = seen_s > kSureAfterS || status.score() > kFits * reacquisition.usualScore();
   if (!mayReacquire() || !is_seen || !is_sure || moved_s < kSureAfterS || since_learnt_s < kEveryS) return;
   since_learnt_s = 0.0;
-  reacquisition.learn(depth, camera_in_use, last_mean.mean);
+  if (reacquisition.learn(depth, camera_in_use, last_mean.mean) > kSureNat) since_sure_s = 0.0;
 }
 
 }  // namespace depth_object_tracker

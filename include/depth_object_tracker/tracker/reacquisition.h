@@ -60,7 +60,7 @@ class Reacquisition {
                                const Vector6d& variances);
 
   /// An image in which the object is surely seen at a pose: how well does it fit? Cheap.
-  void learn(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre);
+  double learn(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre);
 
   /// Score that the object has where it is surely seen, on a search's pixels.
   double usualScore() const { return usual_score_.value_or(kScoreOfAFairMesh); }
