@@ -131,6 +131,14 @@ bool isNearAny(const Pose& T, const std::vector<Pose>& others, const Symmetries&
   return near(Pose::Identity()) || std::any_of(others.begin(), others.end(), near);
 }
 
+/// Turns about the axis all the way instead of those that happened to be found.
+void spaceEvenly(const ScrewAxis& axis, std::vector<Pose>& turns) {
+  constexpr int kTurns = 20;
+  turns.erase(std::remove_if(turns.begin(), turns.end(), [&](const Pose& T) { return isSame(axisOf(T), axis); }),
+              turns.end());
+  for (int k = 1; k < kTurns; ++k) turns.push_back(turnAbout(axis, 2.0 * M_PI * k / kTurns));
+}
+
 }  // namespace
 
 LookAlikes findLookAlikes(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object,
@@ -155,6 +163,7 @@ LookAlikes findLookAlikes(const TriangleMesh& mesh, const Eigen::Vector3d& centr
     }
   }
   look_alikes.axes = commonAxes(look_alikes.far);
+  for (const ScrewAxis& axis : look_alikes.axes) spaceEvenly(axis, look_alikes.far);
   return look_alikes;
 }
 

@@ -21,18 +21,21 @@ Pose turnAbout(const ScrewAxis& axis, double angle_rad) {
          Eigen::Translation3d(-axis.point);
 }
 
-std::vector<ScrewAxis> commonAxes(const std::vector<Pose>& motions) {
+bool isSame(const ScrewAxis& a, const ScrewAxis& b) {
   constexpr double kSameAxisCosine = 0.97;
+  return std::abs(a.direction.dot(b.direction)) > kSameAxisCosine;
+}
+
+std::vector<ScrewAxis> commonAxes(const std::vector<Pose>& motions) {
   constexpr std::ptrdiff_t kLeastMotions = 4;
   std::vector<ScrewAxis> axes;
   for (const Pose& T : motions) {
     const ScrewAxis axis = axisOf(T);
-    const auto isSame = [&](const ScrewAxis& other) {
-      return std::abs(other.direction.dot(axis.direction)) > kSameAxisCosine;
-    };
     const auto alike =
-        std::count_if(motions.begin(), motions.end(), [&](const Pose& other) { return isSame(axisOf(other)); });
-    if (alike >= kLeastMotions && std::none_of(axes.begin(), axes.end(), isSame)) axes.push_back(axis);
+        std::count_if(motions.begin(), motions.end(), [&](const Pose& other) { return isSame(axisOf(other), axis); });
+    const bool is_known =
+        std::any_of(axes.begin(), axes.end(), [&](const ScrewAxis& other) { return isSame(other, axis); });
+    if (alike >= kLeastMotions && !is_known) axes.push_back(axis);
   }
   return axes;
 }

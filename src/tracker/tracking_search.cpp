@@ -119,9 +119,7 @@ void ObjectTracker::Implementation::turnToMiddle(FilterEstimate& estimate, PoseA
   const FreeTurn::Motion motion = {step_in_use->meanVariances()[3], estimate.velocity.tail<3>(), dt_s};
   if (assessment.visibleShare() < kSeenAboveVisibleFraction) return free_turn.wait(estimate.pose.mean, motion);
   const Pose predicted = step_in_use->predict(last_mean.mean, last_velocity);
-  const std::optional<Pose> turn =
-      free_turn.update(likelihood, predicted, estimate.pose.mean, exponent,
-                       {step_in_use->meanVariances()[3], estimate.velocity.tail<3>(), dt_s});
+  const std::optional<Pose> turn = free_turn.update(likelihood, predicted, estimate.pose.mean, exponent, motion);
   if (!turn) return;
   filter.moveInObject(*turn);
   estimate.pose.mean = estimate.pose.mean * *turn;

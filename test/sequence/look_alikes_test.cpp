@@ -30,18 +30,15 @@ TEST(LookAlikesOfObjects, AMugLooksAlikeAllTheWayAboutItsAxis) {
     return std::abs(Eigen::AngleAxisd(T.linear()).axis().z()) > 0.98;
   });
   EXPECT_GE(about_axis, 8);
-  ASSERT_EQ(found.near.size(), 4u);
-  for (const Pose& T : found.near) {
-    EXPECT_GT(std::abs(Eigen::AngleAxisd(T.linear()).axis().z()), 0.98);
-    EXPECT_LT(Eigen::AngleAxisd(T.linear()).angle(), 0.25);
-  }
+  ASSERT_EQ(found.axes.size(), 1u);
+  EXPECT_GT(std::abs(found.axes.front().direction.z()), 0.98);
 }
 
 TEST(LookAlikesOfObjects, ABoxEndForEndUnlessThatIsDeclared) {
   const ScriptedScene scene("box", 1);
   const LookAlikes undeclared = lookAlikesOf(scene);
   EXPECT_EQ(undeclared.far.size(), 3u);
-  EXPECT_TRUE(undeclared.near.empty()) << "a box does not turn freely";
+  EXPECT_TRUE(undeclared.axes.empty()) << "a box does not turn freely";
   Symmetries symmetries;
   for (int axis = 0; axis < 3; ++axis) {
     Pose half_turn = Pose::Identity();
@@ -54,7 +51,7 @@ TEST(LookAlikesOfObjects, ABoxEndForEndUnlessThatIsDeclared) {
 TEST(LookAlikesOfObjects, ADrillHasNoAxis) {
   const LookAlikes found = lookAlikesOf(ScriptedScene("drill", 1));
   EXPECT_LE(found.far.size(), 2u);
-  EXPECT_TRUE(found.near.empty());
+  EXPECT_TRUE(found.axes.empty());
 }
 
 class LookAlikeChecked : public testing::Test {
@@ -76,11 +73,14 @@ class LookAlikeChecked : public testing::Test {
     return truth_ * Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()) * Eigen::Translation3d(centre_);
   }
 
+  /// Where some images lead to; none: they leave the pose where it is.
   std::optional<Pose> findBetter(const Pose& from, const TurnPrior& prior) {
+    std::optional<Pose> best;
     for (int k = 0; k < 8; ++k) {
-      if (auto better = check_.findBetter(likelihood_, from, kExponent, prior, 1.0 / 30.0)) return better;
+      if (auto better = check_.findBetter(likelihood_, best.value_or(from), kExponent, prior, 1.0 / 30.0))
+        best = better;
     }
-    return std::nullopt;
+    return best;
   }
 
   static constexpr double kExponent = 0.06;

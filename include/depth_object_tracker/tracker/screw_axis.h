@@ -19,6 +19,9 @@ ScrewAxis axisOf(const Pose& T);
 /// The motion that turns about the line by an angle [rad].
 Pose turnAbout(const ScrewAxis& axis, double angle_rad);
 
+/// About the same direction, either way.
+bool isSame(const ScrewAxis& a, const ScrewAxis& b);
+
 /// Axes that several of the motions turn about: those of a mug's look-alikes, not of a box's.
 std::vector<ScrewAxis> commonAxes(const std::vector<Pose>& motions);
 
