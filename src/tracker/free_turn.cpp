@@ -85,7 +85,8 @@ std::optional<Pose> FreeTurn::update(DepthLikelihood& likelihood, const Pose& pr
     const double variance = axis.variance + grownBy(motion, estimate.linear() * axis.axis.direction);
     axis.is_free = back + forth > 0;
     axis.doubted *= std::exp2(-motion.dt_s / kDoubtedHalfLifeS);
-    if (back + forth < kLeastStepsToTurn) {
+    const bool shows_nothing = back + forth >= 2 * kStepsPerHalfTurn;  // as of a can: any turn is as good
+    if (back + forth < kLeastStepsToTurn || shows_nothing) {
       const double shown = squaredMean(-(back + 0.5) * kStepRad, (forth + 0.5) * kStepRad);
       axis.variance = std::min(variance, std::max(shown, axis.variance * std::exp2(-motion.dt_s / kShownHalfLifeS)));
       continue;

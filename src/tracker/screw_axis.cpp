@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace depth_object_tracker {
 
@@ -26,16 +27,36 @@ bool isSame(const ScrewAxis& a, const ScrewAxis& b) {
   return std::abs(a.direction.dot(b.direction)) > kSameAxisCosine;
 }
 
+namespace {
+
+/// Of lines in about the same direction.
+ScrewAxis meanOf(const std::vector<ScrewAxis>& axes) {
+  ScrewAxis mean{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  for (const ScrewAxis& axis : axes) {
+    const double way = axis.direction.dot(axes.front().direction) < 0.0 ? -1.0 : 1.0;
+    mean.direction += way * axis.direction;
+    const Eigen::Vector3d nearest = axis.point - axis.direction.dot(axis.point) * axis.direction;  // to the origin
+    mean.point += nearest / static_cast<double>(axes.size());
+  }
+  mean.direction.normalize();
+  return mean;
+}
+
+}  // namespace
+
 std::vector<ScrewAxis> commonAxes(const std::vector<Pose>& motions) {
-  constexpr std::ptrdiff_t kLeastMotions = 4;
+  constexpr std::size_t kLeastMotions = 4;
   std::vector<ScrewAxis> axes;
   for (const Pose& T : motions) {
     const ScrewAxis axis = axisOf(T);
-    const auto alike =
-        std::count_if(motions.begin(), motions.end(), [&](const Pose& other) { return isSame(axisOf(other), axis); });
     const bool is_known =
         std::any_of(axes.begin(), axes.end(), [&](const ScrewAxis& other) { return isSame(other, axis); });
-    if (alike >= kLeastMotions && !is_known) axes.push_back(axis);
+    if (is_known) continue;
+    std::vector<ScrewAxis> alike;
+    for (const Pose& other : motions) {
+      if (isSame(axisOf(other), axis)) alike.push_back(axisOf(other));
+    }
+    if (alike.size() >= kLeastMotions) axes.push_back(meanOf(alike));
   }
   return axes;
 }

@@ -226,7 +226,6 @@ void ObjectTracker::Implementation::calibrate(FilterEstimate& estimate, double d
   estimate.pose.covariance =
       calibration.calibrated(estimate.pose.covariance, likelihood.scatterOfScores(estimate.pose.mean, 0), exponent,
                              step_in_use->component(0).variances, shape.radius_m, dt_s);
-  estimate.pose.covariance = free_turn.widened(estimate.pose.covariance, estimate.pose.mean);
 }
 
 double ObjectTracker::Implementation::diffusionScale() const {
@@ -240,6 +239,7 @@ void ObjectTracker::Implementation::writeEstimate(const FilterEstimate& estimate
   const Eigen::Matrix3d R = estimate.pose.mean.linear();
   const Eigen::Vector3d origin_from_centre = -(R * centre_object);
   Matrix6d covariance = estimate.pose.covariance;
+  if (!is_blind && mayReacquire()) covariance = free_turn.widened(covariance, estimate.pose.mean);
   if (const auto axis = freeAxisInCamera(estimate.pose.mean, symmetries)) {
     covariance.bottomRightCorner<3, 3>() += kFreeAngleVariance * (*axis) * axis->transpose();
   }
