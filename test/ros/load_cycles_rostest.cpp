@@ -21,7 +21,8 @@ namespace {
 
 constexpr int kWarmUp = 3;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-// A cycle takes twenty times as long. Leaks are the sanitizer's then, and one thread or file too many shows after a few.
+// A cycle takes twenty times as long. Leaks are the sanitizer's then, and one thread or file too many shows after a
+// few.
 constexpr int kNodeletCycles = 8, kObjectCycles = 6;
 #else
 constexpr int kNodeletCycles = 50, kObjectCycles = 20;
@@ -58,13 +59,13 @@ bool isBackAt(const Resources& before) {
 void expectNoGrowth(const Resources& before, const char* what, int num_cycles) {
   EXPECT_TRUE(isBackAt(before));
   const Resources after = measure();
-  std::printf("%s, %d times: in use %+ld kB (of %ld), resident memory %+ld kB (of %ld), threads %+ld, open files %+ld\n",
-              what, num_cycles, after.in_use_kb - before.in_use_kb, before.in_use_kb,
-              after.resident_kb - before.resident_kb, before.resident_kb, after.threads - before.threads,
-              after.files - before.files);
+  std::printf(
+      "%s, %d times: in use %+ld kB (of %ld), resident memory %+ld kB (of %ld), threads %+ld, open files %+ld\n", what,
+      num_cycles, after.in_use_kb - before.in_use_kb, before.in_use_kb, after.resident_kb - before.resident_kb,
+      before.resident_kb, after.threads - before.threads, after.files - before.files);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // sanitizers keep what is freed, on purpose
-  // The harness keeps every message: some 5 kB a cycle. The smallest thing that a tracker could leave behind, a mesh, is
-  // ten times that.
+  // The harness keeps every message: some 5 kB a cycle. The smallest thing that a tracker could leave behind, a mesh,
+  // is ten times that.
   EXPECT_LT(after.in_use_kb - before.in_use_kb, 20 * num_cycles);
   // A tracker takes some tens of megabytes. By how the threads happen to share the heap's arenas, the same bytes in use
   // take up to four more or less.
