@@ -39,6 +39,7 @@ sensor_msgs::PointCloud2Ptr toPointCloud(const ParticlePoses& particles, const s
   modifier.setPointCloud2Fields(4, "x", 1, Field::FLOAT32, "y", 1, Field::FLOAT32, "z", 1, Field::FLOAT32, "intensity",
                                 1, Field::FLOAT32);
   modifier.resize(particles.T_camera_object.size());
+  if (particles.T_camera_object.empty()) return message;  // the iterator takes the address of the first byte
   sensor_msgs::PointCloud2Iterator<float> point(*message, "x");
   for (std::size_t i = 0; i < particles.T_camera_object.size(); ++i, ++point) {
     const Eigen::Vector3f position = particles.T_camera_object[i].translation().cast<float>();
