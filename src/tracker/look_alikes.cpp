@@ -44,15 +44,15 @@ std::vector<OrientedPoint> surfacePoints(const TriangleMesh& mesh, const Eigen::
   const auto corner = [&](const Triangle& triangle, int k) -> Eigen::Vector3d {
     return mesh.vertices[static_cast<std::size_t>(triangle[static_cast<std::size_t>(k)])].cast<double>() - centre;
   };
-  const auto doubleArea = [&](const Triangle& t) -> Eigen::Vector3d {
+  const auto double_area = [&](const Triangle& t) -> Eigen::Vector3d {
     return (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0));
   };
   double area = 0.0;
-  for (const Triangle& triangle : mesh.triangles) area += doubleArea(triangle).norm();
+  for (const Triangle& triangle : mesh.triangles) area += double_area(triangle).norm();
   std::vector<OrientedPoint> points;
   double passed = 0.0;
   for (const Triangle& triangle : mesh.triangles) {
-    const Eigen::Vector3d normal = doubleArea(triangle);
+    const Eigen::Vector3d normal = double_area(triangle);
     passed += normal.norm() / area * static_cast<double>(kSurfacePoints);
     while (static_cast<double>(points.size()) + 0.5 < passed) {
       // Additive recurrence, folded into the triangle.
@@ -150,12 +150,12 @@ std::vector<Pose> smallTurns(const std::vector<Pose>& look_alikes) {
   std::vector<ScrewAxis> axes;
   for (const Pose& T : look_alikes) {
     const ScrewAxis axis = axisOf(T);
-    const auto isSame = [&](const ScrewAxis& other) {
+    const auto is_same = [&](const ScrewAxis& other) {
       return std::abs(other.direction.dot(axis.direction)) > kSameAxisCosine;
     };
-    const auto alike =
-        std::count_if(look_alikes.begin(), look_alikes.end(), [&](const Pose& other) { return isSame(axisOf(other)); });
-    if (static_cast<std::size_t>(alike) < kLeastLookAlikes || std::any_of(axes.begin(), axes.end(), isSame)) continue;
+    const auto alike = std::count_if(look_alikes.begin(), look_alikes.end(),
+                                     [&](const Pose& other) { return is_same(axisOf(other)); });
+    if (static_cast<std::size_t>(alike) < kLeastLookAlikes || std::any_of(axes.begin(), axes.end(), is_same)) continue;
     axes.push_back(axis);
   }
   std::vector<Pose> turns;
