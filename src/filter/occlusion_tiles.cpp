@@ -364,8 +364,8 @@ OcclusionTiles::TileSources::TileSources(const SamplingGrid& from, const Samplin
     if (row >= to.camera.height || col >= to.camera.width) continue;
     const int from_row = nearest(to.fullRow(row), from.camera.height);
     const int from_col = nearest(to.fullCol(col), from.camera.width);
-    const auto place = static_cast<std::size_t>(from_row / kTileSize * tile_cols + from_col / kTileSize);
-    const std::uint32_t* column = last[place].load();
+    const int place = from_row / kTileSize * tile_cols + from_col / kTileSize;
+    const std::uint32_t* column = last[static_cast<std::size_t>(place)].load();
     if (column == nullptr) continue;
     const auto known = std::find(columns.begin(), columns.end(), column);
     column_of[static_cast<std::size_t>(i)] = static_cast<int>(known - columns.begin());
