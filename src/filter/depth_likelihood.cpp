@@ -317,7 +317,7 @@ PoseAssessment DepthLikelihood::assess(const Pose& T_camera_centre, int thread, 
           broadened(image_.pixel(tile.row_begin + row, tile.col_begin + col), static_cast<float>(extra_stddev_m));
       if (pixel.depth <= 0.0f) continue;
       if (!is_covered) {
-        assessSurroundings(pixel, tile.soft_depth()[cell], result);
+        assessSurroundings(pixel, tile.softDepth()[cell], result);
         continue;
       }
       const float* tile_beliefs = beliefs[row / kTileSize * tile.tile_cols + col / kTileSize];

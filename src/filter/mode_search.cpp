@@ -170,7 +170,7 @@ std::optional<Pose> ModeSearch::probeFreeDirections(const PredictedPose& predict
     probes[i].pose = perturb(mode.pose, kProbeOffsets[i % kProbes] * free.reach * free.direction);
     probes[i].value = temperedLogLikelihood(probes[i].pose, thread);
   });
-  const std::optional<Pose> better = betterPose(predicted, mode, probes);
+  std::optional<Pose> better = betterPose(predicted, mode, probes);
   for (std::size_t k = 0; k < directions.size(); ++k) takeMeasuredCurvature(directions[k], &probes[k * kProbes], mode);
   return better;
 }

@@ -191,7 +191,7 @@ void OcclusionTiles::keepAround(const CellBox& box) {
   const int row_margin = box.rows() / 2 + kKeptMargin, col_margin = box.cols() / 2 + kKeptMargin;
   const CellBox kept{box.row_begin - row_margin, box.row_end + row_margin, box.col_begin - col_margin,
                      box.col_end + col_margin};
-  const auto isForgotten = [&](int tile_index) {
+  const auto is_forgotten = [&](int tile_index) {
     const int row = tile_index / tile_cols_ * kTileSize, col = tile_index % tile_cols_ * kTileSize;
     if (!intersect(kept, {row, row + kTileSize, col, col + kTileSize}).empty()) return false;
     releaseColumn(column(tile_index));
@@ -199,7 +199,7 @@ void OcclusionTiles::keepAround(const CellBox& box) {
     mean_slots_[static_cast<std::size_t>(tile_index)] = kNoMean;
     return true;
   };
-  active_.erase(std::remove_if(active_.begin(), active_.end(), isForgotten), active_.end());
+  active_.erase(std::remove_if(active_.begin(), active_.end(), is_forgotten), active_.end());
 }
 
 std::uint32_t* OcclusionTiles::addColumn(int tile_index) {
@@ -272,13 +272,13 @@ void OcclusionTiles::resample(const std::vector<int>& source) {
   const auto count = static_cast<int>(source.size());
   if (count > column_size_) growColumns(count);
   gathered_.resize(source.size());
-  const auto isForgotten = [&](int tile_index) {
+  const auto is_forgotten = [&](int tile_index) {
     if (gather(source, column(tile_index))) return false;
     free_columns_.push_back(column(tile_index));
     columns_[static_cast<std::size_t>(tile_index)].store(nullptr);
     return true;
   };
-  active_.erase(std::remove_if(active_.begin(), active_.end(), isForgotten), active_.end());
+  active_.erase(std::remove_if(active_.begin(), active_.end(), is_forgotten), active_.end());
   num_particles_ = count;
 }
 
@@ -364,8 +364,8 @@ OcclusionTiles::TileSources::TileSources(const SamplingGrid& from, const Samplin
     if (row >= to.camera.height || col >= to.camera.width) continue;
     const int from_row = nearest(to.fullRow(row), from.camera.height);
     const int from_col = nearest(to.fullCol(col), from.camera.width);
-    const auto place = static_cast<std::size_t>(from_row / kTileSize * tile_cols + from_col / kTileSize);
-    const std::uint32_t* column = last[place].load();
+    const int place = from_row / kTileSize * tile_cols + from_col / kTileSize;
+    const std::uint32_t* column = last[static_cast<std::size_t>(place)].load();
     if (column == nullptr) continue;
     const auto known = std::find(columns.begin(), columns.end(), column);
     column_of[static_cast<std::size_t>(i)] = static_cast<int>(known - columns.begin());
@@ -400,13 +400,13 @@ void OcclusionTiles::carryOver(int tile_index, const TileSources& sources) {
     }
     return 0;
   };
-  const auto hasAny = [&](int particle) {
+  const auto has_any = [&](int particle) {
     return std::any_of(sources.columns.begin(), sources.columns.end(),
                        [&](const std::uint32_t* column) { return column[particle] != 0; });
   };
   std::vector<int> particles;
   for (int particle = 0; particle < num_particles_; ++particle) {
-    if (hasAny(particle)) particles.push_back(particle);
+    if (has_any(particle)) particles.push_back(particle);
   }
   std::sort(particles.begin(), particles.end(), [&](int a, int b) { return compare(a, b) < 0; });
   for (std::size_t k = 0; k < particles.size(); ++k) {

@@ -36,8 +36,9 @@ Vector6d RandomSource::normal6(RandomPurpose purpose, std::uint64_t frame, std::
     const Generator::ctr_type bits = block(seed_, purpose, frame, index, pair);
     const double radius = std::sqrt(-2.0 * std::log(toOpenUnit(bits[0])));
     const double angle = 2.0 * M_PI * toOpenUnit(bits[1]);
-    result[2 * pair] = radius * std::cos(angle);
-    result[2 * pair + 1] = radius * std::sin(angle);
+    const Eigen::Index first = 2 * static_cast<Eigen::Index>(pair);
+    result[first] = radius * std::cos(angle);
+    result[first + 1] = radius * std::sin(angle);
   }
   return result;
 }

@@ -64,7 +64,7 @@ Matrix6d CovarianceCalibration::calibrated(const Matrix6d& covariance, const Sco
   // Rotations as motion of the surface, so that both halves are of one size.
   Vector6d unit = Vector6d::Ones();
   unit.tail<3>().setConstant(radius_m);
-  const auto inUnits = [&unit](const Matrix6d& m) -> Matrix6d { return unit.asDiagonal() * m * unit.asDiagonal(); };
+  const auto in_units = [&unit](const Matrix6d& m) -> Matrix6d { return unit.asDiagonal() * m * unit.asDiagonal(); };
   const Vector6d inverse_unit = unit.cwiseInverse();
   const Matrix6d prior = prior_variances.cwiseProduct(unit.cwiseAbs2()).cwiseInverse().asDiagonal();
   const Matrix6d information = inverse_unit.asDiagonal() * scores.information * inverse_unit.asDiagonal();
@@ -72,7 +72,7 @@ Matrix6d CovarianceCalibration::calibrated(const Matrix6d& covariance, const Sco
   const Matrix6d as_borne_out = information * noise_in_units.ldlt().solve(information);
   const Matrix6d assumed = exponent * information;
   const Matrix6d change = transport(inverseOf(assumed + prior), inverseOf(as_borne_out + prior));
-  const Matrix6d result = change * inUnits(covariance) * change.transpose();
+  const Matrix6d result = change * in_units(covariance) * change.transpose();
   if (!result.allFinite()) return covariance;
   const Matrix6d symmetric = 0.5 * (result + result.transpose());
   return inverse_unit.asDiagonal() * symmetric * inverse_unit.asDiagonal();

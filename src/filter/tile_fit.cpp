@@ -47,7 +47,7 @@ TileFit countTileFit(const DepthTile& tile, const PixelPlanes& planes, float tol
         const int cell = row * tile.stride + tile_col * kTileSize;
         const std::ptrdiff_t in_image =
             static_cast<std::ptrdiff_t>(tile.row_begin + row) * planes.stride + tile.col_begin + tile_col * kTileSize;
-        sums.add(tile.depth() + cell, tile.soft_depth() + cell, tile.coverage() + cell, planes.depth + in_image,
+        sums.add(tile.depth() + cell, tile.softDepth() + cell, tile.coverage() + cell, planes.depth + in_image,
                  planes.visible_peak + in_image, tolerance_m, tolerance_per_m);
       }
     }

@@ -41,7 +41,7 @@ bool readCell(const DepthTile& tile, const PixelPlanes& planes, int row, int col
   const int in_tile = row * tile.stride + col;
   const int in_image = (tile.row_begin + row) * planes.stride + tile.col_begin + col;
   cell.coverage = tile.coverage()[in_tile];
-  cell.depth = tile.soft_depth()[in_tile];
+  cell.depth = tile.softDepth()[in_tile];
   cell.pixel = {planes.depth[in_image],
                 planes.inverse_stddev[in_image],
                 planes.visible_peak[in_image],

@@ -123,7 +123,7 @@ HWY_INLINE Cells readCells(const DepthTile& tile, const PixelPlanes& planes, int
   cells.z = read(planes.depth);
   cells.valid = hn::And(hn::Gt(cells.coverage, hn::Zero(d)), hn::Gt(cells.z, hn::Zero(d)));
   // Elsewhere the depth may be infinite: any finite number keeps the lanes quiet.
-  cells.depth = hn::IfThenElse(cells.valid, loadRows(tile.soft_depth() + in_tile, tile.stride), set(1.0f));
+  cells.depth = hn::IfThenElse(cells.valid, loadRows(tile.softDepth() + in_tile, tile.stride), set(1.0f));
   cells.inverse_stddev = read(planes.inverse_stddev);
   cells.visible_peak = read(planes.visible_peak);
   cells.tail = read(planes.tail);

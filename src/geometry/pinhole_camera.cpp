@@ -17,10 +17,10 @@ int gridSize(int full_size, int factor) {
 
 std::string PinholeCamera::findProblem() const {
   std::ostringstream problem;
-  const auto focalOk = [](double f) { return std::isfinite(f) && f > 0.0; };
+  const auto focal_ok = [](double f) { return std::isfinite(f) && f > 0.0; };
   if (width <= 0 || height <= 0) {
     problem << "camera image size is " << width << "x" << height << "; both must be positive";
-  } else if (!focalOk(fx) || !focalOk(fy)) {
+  } else if (!focal_ok(fx) || !focal_ok(fy)) {
     problem << "camera focal lengths are fx=" << fx << ", fy=" << fy
             << "; both must be finite and positive (0 means that the camera is not calibrated)";
   } else if (!std::isfinite(cx) || !std::isfinite(cy)) {

@@ -29,11 +29,11 @@ PixelBox boxAround(const Eigen::Vector3d& centre_camera, double radius_m, const 
   const double u_radius = camera.fx * radius_m / nearest;
   const double v_radius = camera.fy * radius_m / nearest;
   const Eigen::Vector2d centre = camera.project(centre_camera);
-  const auto clampTo = [](double value, int size) {
+  const auto clamp_to = [](double value, int size) {
     return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(size)));
   };
-  return {clampTo(centre.y() - v_radius, camera.height), clampTo(centre.y() + v_radius + 1.0, camera.height),
-          clampTo(centre.x() - u_radius, camera.width), clampTo(centre.x() + u_radius + 1.0, camera.width)};
+  return {clamp_to(centre.y() - v_radius, camera.height), clamp_to(centre.y() + v_radius + 1.0, camera.height),
+          clamp_to(centre.x() - u_radius, camera.width), clamp_to(centre.x() + u_radius + 1.0, camera.width)};
 }
 
 class IcpTracker : public PeerTracker {

@@ -91,12 +91,14 @@ inline RasterFace makeRasterFace(const FaceSet& faces, std::size_t i, const Rast
   face.edges[0] = makeRasterEdge(x[0], y[0], x[b], y[b]);
   face.edges[1] = makeRasterEdge(x[b], y[b], x[c], y[c]);
   face.edges[2] = makeRasterEdge(x[c], y[c], x[0], y[0]);
-  const auto firstPixel = [](std::int32_t value) { return (value + kSubpixels - 1) >> RasterTransform::kSubpixelBits; };
-  const auto lastPixel = [](std::int32_t value) { return value >> RasterTransform::kSubpixelBits; };
-  face.first_col = std::max(firstPixel(std::min({x[0], x[1], x[2]})), 0);
-  face.last_col = std::min(lastPixel(std::max({x[0], x[1], x[2]})), tile.cols - 1);
-  face.first_row = std::max(firstPixel(std::min({y[0], y[1], y[2]})), 0);
-  face.last_row = std::min(lastPixel(std::max({y[0], y[1], y[2]})), tile.rows - 1);
+  const auto first_pixel = [](std::int32_t value) {
+    return (value + kSubpixels - 1) >> RasterTransform::kSubpixelBits;
+  };
+  const auto last_pixel = [](std::int32_t value) { return value >> RasterTransform::kSubpixelBits; };
+  face.first_col = std::max(first_pixel(std::min({x[0], x[1], x[2]})), 0);
+  face.last_col = std::min(last_pixel(std::max({x[0], x[1], x[2]})), tile.cols - 1);
+  face.first_row = std::max(first_pixel(std::min({y[0], y[1], y[2]})), 0);
+  face.last_row = std::min(last_pixel(std::max({y[0], y[1], y[2]})), tile.rows - 1);
   const auto dot = [&](const float(&m)[3]) { return (nx * m[0] + ny * m[1]) + nz * m[2]; };
   face.by_col = dot(transform.by_col);
   face.by_row = dot(transform.by_row);

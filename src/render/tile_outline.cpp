@@ -75,7 +75,7 @@ void softenOutlineScalar(const OutlineCoverage& outline, bool with_distance, Dep
   combineNeighbours(tile.depth(), tile.dilated(), tile, nearest);
   combineNeighbours(tile.depth(), tile.eroded(), tile, farthest);
   // The second rings take the place of soft depth and distance for a moment.
-  float* dilated_twice = tile.soft_depth();
+  float* dilated_twice = tile.softDepth();
   float* eroded_twice = tile.distance();
   combineNeighbours(tile.dilated(), dilated_twice, tile, nearest);
   combineNeighbours(tile.eroded(), eroded_twice, tile, farthest);
@@ -98,7 +98,7 @@ void softenOutlineScalar(const OutlineCoverage& outline, bool with_distance, Dep
         coverage = outline.outside[1], distance = -1.5f;
       }
       tile.coverage()[i] = coverage;
-      tile.soft_depth()[i] = covered ? tile.depth()[i] : beside ? tile.dilated()[i] : dilated_twice[i];
+      tile.softDepth()[i] = covered ? tile.depth()[i] : beside ? tile.dilated()[i] : dilated_twice[i];
       tile.distance()[i] = distance;
       if (coverage > 0.0f) {
         tile.touched[static_cast<std::size_t>(row / kTileSize * tile.tile_cols + col / kTileSize)] = 1;

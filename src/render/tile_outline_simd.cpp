@@ -60,7 +60,7 @@ HWY_INLINE V writeCells(const Rings& rings, const OutlineCoverage& outline, int 
   hn::StoreU(coverage, d, tile.coverage() + offset);
   V depth = hn::IfThenElse(beside, rings.dilated, rings.dilated_twice);
   depth = hn::IfThenElse(covered, rings.depth, depth);
-  hn::StoreU(depth, d, tile.soft_depth() + offset);
+  hn::StoreU(depth, d, tile.softDepth() + offset);
   if (kWithDistance) {
     V distance = hn::IfThenElse(near, hn::Set(d, -1.5f), hn::Set(d, -2.5f));
     distance = hn::IfThenElse(beside, hn::Set(d, -0.5f), distance);

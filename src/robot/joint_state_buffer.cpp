@@ -52,12 +52,12 @@ std::string JointStateBuffer::add(const JointReport& report) {
            " positions and " + std::to_string(report.velocities.size()) + " velocities";
   }
   std::string problem;
-  const auto isBad = [](const std::vector<double>& values, std::size_t k) {
+  const auto is_bad = [](const std::vector<double>& values, std::size_t k) {
     return !values.empty() && !std::isfinite(values[k]);
   };
   for (std::size_t k = 0; k < count; ++k) {
     const std::string& joint = report.names[k];
-    if (isBad(report.positions, k) || isBad(report.velocities, k)) {
+    if (is_bad(report.positions, k) || is_bad(report.velocities, k)) {
       problem += (problem.empty() ? "a number that is not finite for joint '" : ", '") + joint + "'";
     }
     if (series_.size() >= kMaxJoints && series_.count(joint) == 0) return "there are too many joints";

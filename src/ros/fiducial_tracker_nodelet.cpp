@@ -95,16 +95,16 @@ void FiducialTrackerNodelet::subscribeMotion() {
         if (!problem.empty()) log_->warn(problem);
       });
   if (held_motion_.robot() == nullptr) return;
-  const auto subscribeTo = [this](const char* name,
-                                  std::string (RobotConnection::*take)(const sensor_msgs::JointState&)) {
+  const auto subscribe_to = [this](const char* name,
+                                   std::string (RobotConnection::*take)(const sensor_msgs::JointState&)) {
     return getNodeHandle().subscribe<sensor_msgs::JointState>(
         topic(name), 500, [this, take](const sensor_msgs::JointStateConstPtr& joints) {
           const std::string problem = (held_motion_.robot()->*take)(*joints);
           if (!problem.empty()) log_->warn(problem);
         });
   };
-  joint_subscriber_ = subscribeTo("joint_states", &RobotConnection::addJointStates);
-  command_subscriber_ = subscribeTo("joint_commands", &RobotConnection::addCommands);
+  joint_subscriber_ = subscribe_to("joint_states", &RobotConnection::addJointStates);
+  command_subscriber_ = subscribe_to("joint_commands", &RobotConnection::addCommands);
 }
 
 void FiducialTrackerNodelet::onStereo(const sensor_msgs::ImageConstPtr& left,

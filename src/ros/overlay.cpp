@@ -73,13 +73,13 @@ Eigen::Vector2f slopesAt(const Scene& scene, int row, int col) {
   const float z = scene.at(row, col);
   const int reach =
       std::clamp(static_cast<int>(std::lround(kShadingReachPerM * z)), kMinShadingReach, kMaxShadingReach);
-  const auto clampRow = [&](int r) { return std::clamp(r, 0, scene.height - 1); };
-  const auto clampCol = [&](int c) { return std::clamp(c, 0, scene.width - 1); };
-  const int r0 = clampRow(row - reach), r1 = clampRow(row + reach), c0 = clampCol(col - reach),
-            c1 = clampCol(col + reach);
+  const auto clamp_row = [&](int r) { return std::clamp(r, 0, scene.height - 1); };
+  const auto clamp_col = [&](int c) { return std::clamp(c, 0, scene.width - 1); };
+  const int r0 = clamp_row(row - reach), r1 = clamp_row(row + reach), c0 = clamp_col(col - reach),
+            c1 = clamp_col(col + reach);
   Eigen::Vector2f sum = Eigen::Vector2f::Zero();
   for (int side = -reach / 2; side <= reach / 2; side += std::max(1, reach / 2)) {
-    const int r = clampRow(row + side), c = clampCol(col + side);
+    const int r = clamp_row(row + side), c = clamp_col(col + side);
     sum.x() += slope(scene.at(r, c0), scene.at(r, c1), z, std::max(1, c1 - c0));
     sum.y() += slope(scene.at(r0, c), scene.at(r1, c), z, std::max(1, r1 - r0));
   }

@@ -27,7 +27,7 @@ SimulatorOptions loadSimulatorOptions(const ros::NodeHandle& private_node) {
   reader.readName("scenario", scenarioFromName, options.simulation.scenario);
   reader.readName("speed", speedFromName, options.simulation.speed);
   reader.readName("occluders", occludersFromName, options.simulation.occluders);
-  const auto readFile = [&](const char* key, const char* expected, std::string& path) {
+  const auto read_file = [&](const char* key, const char* expected, std::string& path) {
     std::string uri;
     reader.read(key, expected, uri);
     try {
@@ -36,8 +36,8 @@ SimulatorOptions loadSimulatorOptions(const ros::NodeHandle& private_node) {
       options.problems.push_back("parameter '" + private_node.resolveName(key) + "': " + error.what());
     }
   };
-  readFile("robot_urdf", "the path of a URDF file", options.simulation.robot_urdf);
-  readFile("fiducials_file", "the path of a YAML file", options.simulation.fiducials_file);
+  read_file("robot_urdf", "the path of a URDF file", options.simulation.robot_urdf);
+  read_file("fiducials_file", "the path of a YAML file", options.simulation.fiducials_file);
   int seed = 1;
   reader.read("seed", "a whole number", seed);
   options.simulation.seed = static_cast<std::uint64_t>(seed);

@@ -223,7 +223,7 @@ void TrackerNodelet::subscribeCommands() {
 }
 
 void TrackerNodelet::subscribeJoints() {
-  const auto subscribeTo = [this](const char* topic, void (TrackerSession::*take)(const sensor_msgs::JointState&)) {
+  const auto subscribe_to = [this](const char* topic, void (TrackerSession::*take)(const sensor_msgs::JointState&)) {
     return getNodeHandle().subscribe<sensor_msgs::JointState>(
         siblingName(getName(), topic), 500,
         [this, take](const sensor_msgs::JointStateConstPtr& joints) {
@@ -231,8 +231,8 @@ void TrackerNodelet::subscribeJoints() {
         },
         ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
   };
-  joint_subscriber_ = subscribeTo("joint_states", &TrackerSession::addJointStates);
-  command_subscriber_ = subscribeTo("joint_commands", &TrackerSession::addCommands);
+  joint_subscriber_ = subscribe_to("joint_states", &TrackerSession::addJointStates);
+  command_subscriber_ = subscribe_to("joint_commands", &TrackerSession::addCommands);
 }
 
 void TrackerNodelet::subscribe(const std::string& image_topic, const std::string& info_topic,
@@ -243,15 +243,15 @@ void TrackerNodelet::subscribe(const std::string& image_topic, const std::string
   const auto on_image = [this](const sensor_msgs::ImageConstPtr& image) { matcher_->addImage(image); };
   image_transport::ImageTransport images(getNodeHandle());
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
-  const auto subscribeWith = [&](const std::string& name) {
+  const auto subscribe_with = [&](const std::string& name) {
     return images.subscribe(image_topic, 1, on_image, ros::VoidPtr(), image_transport::TransportHints(name, no_delay));
   };
   try {
-    image_subscriber_ = subscribeWith(transport);
+    image_subscriber_ = subscribe_with(transport);
   } catch (const image_transport::Exception& error) {
     NODELET_ERROR_STREAM(getName() << ": ~image_transport '" << transport
                                    << "' cannot be used, taking 'raw': " << error.what());
-    image_subscriber_ = subscribeWith("raw");
+    image_subscriber_ = subscribe_with("raw");
   }
   NODELET_INFO_STREAM(getName() << ": depth from '" << image_topic << "', camera_info from '" << info_topic << "'");
 }

@@ -59,12 +59,12 @@ void ValuePlot::paintEvent(QPaintEvent*) {
 
 void ValuePlot::drawCurve(QPainter& painter, const QRectF& area) const {
   const double highest = top();
-  const auto heightOf = [&](double value) {
+  const auto height_of = [&](double value) {
     return area.bottom() - std::clamp(value / highest, 0.0, 1.0) * area.height();
   };
   if (style_.guide >= 0.0) {
     painter.setPen(QPen(palette().color(QPalette::Mid), 1.0, Qt::DashLine));
-    painter.drawLine(QPointF(area.left(), heightOf(style_.guide)), QPointF(area.right(), heightOf(style_.guide)));
+    painter.drawLine(QPointF(area.left(), height_of(style_.guide)), QPointF(area.right(), height_of(style_.guide)));
   }
   const Clock::time_point now = Clock::now();
   QPainterPath path;
@@ -72,7 +72,7 @@ void ValuePlot::drawCurve(QPainter& painter, const QRectF& area) const {
   bool is_drawing = false;
   for (const Sample& sample : samples_) {
     const QPointF point(area.right() - secondsBetween(sample.time, now) / kWindowS * area.width(),
-                        heightOf(sample.value));
+                        height_of(sample.value));
     const bool is_gap = !std::isfinite(sample.value);
     const bool continues = is_drawing && secondsBetween(last, sample.time) < kGapS;
     if (!is_gap && continues) path.lineTo(point);

@@ -43,13 +43,13 @@ SmoothMotion::SmoothMotion(const SmoothMotionConfig& config, const std::function
     for (double& amplitude : signal.amplitude) amplitude /= sum;
   }
   chooseRates();
-  const auto staysAllowed = [&] {
+  const auto stays_allowed = [&] {
     for (double t = 0.0; t <= config_.duration_s; t += 4.0 * sampleStep(config_.duration_s)) {
       if (!is_allowed(pose(t))) return false;
     }
     return true;
   };
-  while (is_allowed && amplitude_share_ > 0.05 && !staysAllowed()) {
+  while (is_allowed && amplitude_share_ > 0.05 && !stays_allowed()) {
     amplitude_share_ *= 0.85;
     chooseRates();
   }

@@ -51,7 +51,7 @@ void SequenceSummary::add(const TrackerResult& result, const std::optional<PoseE
 SequenceSummary::Losses SequenceSummary::losses() const {
   Losses losses;
   int run = 0;
-  const auto endRun = [&] {
+  const auto end_run = [&] {
     if (run > kLossFrames) {
       ++losses.episodes;
       losses.frames += run;
@@ -62,12 +62,12 @@ SequenceSummary::Losses SequenceSummary::losses() const {
     if (!frame.error) continue;
     const bool far = (symmetric_ ? frame.error->adds_m : frame.error->add_m) > kLossErrorM;
     if (!far) {
-      endRun();
+      end_run();
     } else if (frame.judged && frame.visible_longer) {
       ++run;
     }
   }
-  endRun();
+  end_run();
   return losses;
 }
 

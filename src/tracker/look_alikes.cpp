@@ -45,15 +45,15 @@ std::vector<OrientedPoint> surfacePoints(const TriangleMesh& mesh, const Eigen::
   const auto corner = [&](const Triangle& triangle, int k) -> Eigen::Vector3d {
     return mesh.vertices[static_cast<std::size_t>(triangle[static_cast<std::size_t>(k)])].cast<double>() - centre;
   };
-  const auto doubleArea = [&](const Triangle& t) -> Eigen::Vector3d {
+  const auto double_area = [&](const Triangle& t) -> Eigen::Vector3d {
     return (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0));
   };
   double area = 0.0;
-  for (const Triangle& triangle : mesh.triangles) area += doubleArea(triangle).norm();
+  for (const Triangle& triangle : mesh.triangles) area += double_area(triangle).norm();
   std::vector<OrientedPoint> points;
   double passed = 0.0;
   for (const Triangle& triangle : mesh.triangles) {
-    const Eigen::Vector3d normal = doubleArea(triangle);
+    const Eigen::Vector3d normal = double_area(triangle);
     passed += normal.norm() / area * static_cast<double>(kSurfacePoints);
     while (static_cast<double>(points.size()) + 0.5 < passed) {
       // Additive recurrence, folded into the triangle.

@@ -162,7 +162,7 @@ class EngineOracle : public WithTargets, public testing::WithParamInterface<cons
 
   static void poisonAllButDepth(DepthTile& tile, float poison) {
     const int cells = tile.tile_rows * kTileSize * tile.stride;
-    for (float* plane : {tile.soft_depth(), tile.coverage(), tile.distance(), tile.dilated(), tile.eroded()}) {
+    for (float* plane : {tile.softDepth(), tile.coverage(), tile.distance(), tile.dilated(), tile.eroded()}) {
       std::fill(plane - DepthTile::kPad, plane - DepthTile::kPad + cells, poison);
     }
     std::fill(tile.face() - DepthTile::kPad, tile.face() - DepthTile::kPad + cells, -1);
@@ -288,8 +288,8 @@ void expectSameOutline(const DepthTile& reference, const DepthTile& tile, bool w
       ASSERT_EQ(reference.coverage()[cell], tile.coverage()[cell]) << "row " << row << " col " << col;
       if (reference.coverage()[cell] == 0.0f) continue;
       ASSERT_LT(col, tile.cols) << "beyond the image nothing is covered";
-      ASSERT_LT(reference.soft_depth()[cell], kEmpty);
-      ASSERT_EQ(reference.soft_depth()[cell], tile.soft_depth()[cell]) << "row " << row << " col " << col;
+      ASSERT_LT(reference.softDepth()[cell], kEmpty);
+      ASSERT_EQ(reference.softDepth()[cell], tile.softDepth()[cell]) << "row " << row << " col " << col;
     }
   }
   if (!with_distance) return;

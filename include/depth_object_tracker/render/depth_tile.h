@@ -44,8 +44,8 @@ class DepthTile {
   const float* depth() const { return plane(depth_); }
   std::int32_t* face() { return face_.data() + kPad; }  ///< id of the face drawn, where depth is finite
   const std::int32_t* face() const { return face_.data() + kPad; }
-  float* soft_depth() { return plane(soft_depth_); }  ///< [m] the same with the outline's surroundings
-  const float* soft_depth() const { return plane(soft_depth_); }
+  float* softDepth() { return plane(soft_depth_); }  ///< [m] the same with the outline's surroundings
+  const float* softDepth() const { return plane(soft_depth_); }
   float* coverage() { return plane(coverage_); }  ///< [0, 1]
   const float* coverage() const { return plane(coverage_); }
   float* distance() { return plane(distance_); }  ///< [px] to the outline, positive inside
