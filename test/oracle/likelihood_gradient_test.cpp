@@ -103,5 +103,28 @@ TEST_F(PlateLikelihood, PosesOutsideOfThePreparedRegionAreRefused) {
   EXPECT_EQ(likelihood_->linearise(poseAt(0.25, 0, 1), 0.0, 0).information.norm(), 0.0);
 }
 
+TEST_F(PlateLikelihood, EveryPreparedPoseHasAValue) {
+  // The corners of an octahedron's box are farther from its middle than any of its points.
+  TriangleMesh octahedron;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float side : {-0.1f, 0.1f}) octahedron.vertices.push_back(side * Eigen::Vector3f::Unit(axis));
+  }
+  for (const std::uint32_t x : {0u, 1u}) {
+    for (const std::uint32_t y : {2u, 3u}) {
+      for (const std::uint32_t z : {4u, 5u}) octahedron.triangles.push_back({x, y, z});
+    }
+  }
+  const PinholeCamera camera = makeCamera(160, 120, 200.0);
+  const std::vector<float> image(static_cast<std::size_t>(camera.width * camera.height), 1.2f);
+  for (int k = 0; k < 50; ++k) {
+    likelihood_.emplace(octahedron, Eigen::Vector3d::Zero(), PixelModelConfig(), OcclusionChainConfig(), 1, 1);
+    likelihood_->setImage(viewOf(image, camera), makeSamplingGrid(camera, 1), 0.0);
+    Pose pose = poseAt(0.05, -0.02, 1.0);
+    pose.linear() = expSo3(0.05 * k * Eigen::Vector3d(1.0, -0.7, 0.4));
+    likelihood_->prepare({pose});
+    EXPECT_TRUE(std::isfinite(likelihood_->logLikelihood(pose, 0))) << k;
+  }
+}
+
 }  // namespace
 }  // namespace depth_object_tracker

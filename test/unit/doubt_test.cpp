@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// When an estimate is compared with other poses of the image, and how often.
+#include "depth_object_tracker/tracker/doubt.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace depth_object_tracker {
+namespace {
+
+constexpr double kFrameS = 1.0 / 30.0, kGoodScore = 1.0, kPoorScore = 0.7, kPlainSight = 0.9;
+
+/// Runs images that all fit alike. @return times [s] of the looks of a kind.
+std::vector<double> looks(Doubt& doubt, double duration_s, double score, Doubt::Look kind) {
+  std::vector<double> times;
+  for (double time_s = kFrameS; time_s < duration_s; time_s += kFrameS) {
+    doubt.update(score, kPlainSight, true, kFrameS);
+    const Doubt::Look look = doubt.look();
+    if (look == kind) times.push_back(time_s);
+    doubt.looked(look);
+  }
+  return times;
+}
+
+TEST(DoubtOf, AGoodFitIsNone) {
+  Doubt doubt;
+  EXPECT_TRUE(looks(doubt, 10.0, kGoodScore, Doubt::Look::kAround).empty());
+  doubt.restart();
+  EXPECT_TRUE(looks(doubt, 10.0, kGoodScore, Doubt::Look::kEverywhere).empty());
+}
+
+TEST(DoubtOf, APoorFitComesBackEverMoreRarely) {
+  Doubt doubt;
+  const std::vector<double> times = looks(doubt, 20.0, kPoorScore, Doubt::Look::kEverywhere);
+  ASSERT_GE(times.size(), 4u);
+  EXPECT_LT(times.front(), 0.2);
+  for (std::size_t k = 2; k < times.size(); ++k) {
+    EXPECT_GT(times[k] - times[k - 1], 1.2 * (times[k - 1] - times[k - 2])) << k;
+  }
+}
+
+TEST(DoubtOf, AFindIsThreeLooksAtAllOfTheImageHoweverWellItFits) {
+  Doubt doubt;
+  doubt.update(kGoodScore, kPlainSight, true, kFrameS);
+  doubt.found();
+  const std::vector<double> times = looks(doubt, 20.0, kGoodScore, Doubt::Look::kEverywhere);
+  ASSERT_EQ(times.size(), 3u);
+  EXPECT_NEAR(times[0], 0.75, 2.0 * kFrameS);
+  EXPECT_NEAR(times[1], 1.5, 2.0 * kFrameS);
+  EXPECT_NEAR(times[2], 3.0, 2.0 * kFrameS);
+}
+
+}  // namespace
+}  // namespace depth_object_tracker
