@@ -14,7 +14,6 @@ add_library(depth_object_tracker_core SHARED
   src/filter/score_scatter.cpp
   src/filter/tile_fit.cpp
   src/filter/tile_likelihood.cpp
-  src/filter/transition_kernel.cpp
   src/filter/worker_pool.cpp
   src/geometry/child_process.cpp
   src/geometry/convex_hull.cpp

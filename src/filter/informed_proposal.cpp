@@ -20,24 +20,25 @@ double logSum(double a, double b) {
 
 }  // namespace
 
-InformedProposal::InformedProposal(const TransitionKernel& kernel, const std::vector<LocalMode>& modes) {
+InformedProposal::InformedProposal(const ProcessStep& step, const std::vector<LocalMode>& modes) {
   for (std::size_t j = 0; j < std::min(modes.size(), kMaxModes); ++j) modes_.push_back(modes[j]);
   for (std::size_t j = 0; j < modes_.size(); ++j) {
-    for (int k = 0; k < kernel.numComponents(); ++k) {
+    for (int k = 0; k < step.numComponents(); ++k) {
       Component& component = components_[num_components_++];
       component.mode = j;
-      component.log_weight = std::log(kernel.component(k).weight) + modes_[j].log_likelihood;
-      component.prior_information = kernel.component(k).information;
-      component.precision = modes_[j].information + component.prior_information;
+      component.log_weight = std::log(step.component(k).weight) + modes_[j].log_likelihood;
+      component.prior_information = step.component(k).variances.cwiseInverse();
+      component.precision = modes_[j].information;
+      component.precision.diagonal() += component.prior_information;
       component.covariance = component.precision.inverse();
       component.covariance = 0.5 * (component.covariance + component.covariance.transpose().eval());
       component.shape = Gaussian6(Vector6d::Zero(), kCovarianceInflation * component.covariance);
       component.log_determinant_ratio =
-          0.5 * (kernel.component(k).log_determinant - std::log(component.precision.determinant()));
+          0.5 * (component.prior_information.array().log().sum() - std::log(component.precision.determinant()));
     }
   }
   if (num_components_ > 0) {
-    data_share_ = Matrix6d::Identity() - components_[0].covariance * components_[0].prior_information;
+    data_share_ = Matrix6d::Identity() - components_[0].covariance * components_[0].prior_information.asDiagonal();
   }
 }
 
@@ -48,7 +49,7 @@ InformedProposal::ForParticle::ForParticle(const InformedProposal& proposal, con
     const Component& component = proposal_.components_[c];
     const LocalMode& mode = proposal_.modes_[component.mode];
     const Vector6d mu = difference(predicted, mode.pose);
-    const Vector6d pull = component.prior_information * mu;
+    const Vector6d pull = component.prior_information.cwiseProduct(mu);
     means_[c] = component.covariance * (mode.slope + pull);
     // Evidence of the quadratic model under this prior: the mass that the component should get.
     const double exponent = 0.5 * means_[c].dot(component.precision * means_[c]) - 0.5 * mu.dot(pull);

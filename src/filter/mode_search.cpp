@@ -51,9 +51,9 @@ double surfaceMotion(const Vector6d& displacement, double radius) {
 
 }  // namespace
 
-ModeSearch::ModeSearch(PoseLikelihood& likelihood, const TransitionKernel& kernel, double likelihood_exponent,
+ModeSearch::ModeSearch(PoseLikelihood& likelihood, const ProcessStep& step, double likelihood_exponent,
                        double object_radius_m)
-    : likelihood_(likelihood), kernel_(kernel), exponent_(likelihood_exponent), object_radius_m_(object_radius_m) {}
+    : likelihood_(likelihood), step_(step), exponent_(likelihood_exponent), object_radius_m_(object_radius_m) {}
 
 void ModeSearch::run(const PredictedPose& predicted, const Starts& starts, const std::vector<Pose>& hypotheses,
                      std::size_t max_modes, std::vector<LocalMode>& modes) {
@@ -133,11 +133,13 @@ Vector6d ModeSearch::newtonStep(const PredictedPose& predicted, const Matrix6d& 
 
 Matrix6d ModeSearch::priorInformation(const PredictedPose& predicted) const {
   // The widest component: a sudden motion must be found too; the weights know how rare it is.
-  return (predicted.covariance + kernel_.widestComponent().shape.covariance()).inverse();
+  Matrix6d covariance = predicted.covariance;
+  covariance.diagonal() += step_.widestComponent().variances;
+  return covariance.inverse();
 }
 
 double ModeSearch::logPrior(const Pose& pose, const PredictedPose& predicted) const {
-  return kernel_.logDensity(difference(pose, predicted.mean));
+  return step_.logDensity(difference(pose, predicted.mean));
 }
 
 double ModeSearch::temperedLogLikelihood(const Pose& pose, int thread) const {
@@ -189,7 +191,8 @@ std::optional<Pose> ModeSearch::betterPose(const PredictedPose& predicted, const
 }
 
 ModeSearch::FreeDirections ModeSearch::freeDirections(const LocalMode& mode) const {
-  const Matrix6d information = mode.information + kernel_.component(0).information;
+  Matrix6d information = mode.information;
+  information.diagonal() += step_.component(0).variances.cwiseInverse();
   Vector6d scale = Vector6d::Ones();
   scale.tail<3>().setConstant(1.0 / object_radius_m_);  // rotations in metres of surface motion
   const Matrix6d scaled = scale.asDiagonal() * information * scale.asDiagonal();

@@ -12,8 +12,6 @@ namespace {
 
 // Share of what the data say about a particle's displacement that goes into its velocity.
 constexpr double kVelocityGain = 0.7;
-// Fewer effective samples than this are as good as one: their spread is as expected, not as measured.
-constexpr double kLeastLineages = 2.0;
 constexpr double kNarrowWidthM = 0.003;
 constexpr double kBroadWidthM = 0.016;
 constexpr std::size_t kMaxModes = InformedProposal::kMaxModes;
@@ -38,8 +36,6 @@ void ParticleFilter::initialise(const Pose& T_camera_centre) {
     weights_[i] = 1.0 / static_cast<double>(poses_.size());
   }
   last_mean_ = T_camera_centre;
-  posterior_covariance_.setZero();
-  lost_spread_.setZero();
 }
 
 void ParticleFilter::stopMotion() {
@@ -72,15 +68,13 @@ FilterEstimate ParticleFilter::update(PoseLikelihood& likelihood, const ProcessS
   velocities_before_ = velocities_;
   weights_before_ = weights_;
   last_mean_before_ = last_mean_;
-  lost_spread_before_ = lost_spread_;
 
   predict(step);
-  const TransitionKernel kernel = takeKernel(step);
   if (config_.proposal == Proposal::kInformed) {
-    findModes(likelihood, kernel, likelihood_exponent, hypotheses);
-    drawInformed(kernel);
+    findModes(likelihood, step, likelihood_exponent, hypotheses);
+    drawInformed(step);
   } else {
-    drawFromKernel(kernel);
+    drawFromProcess(step);
   }
   estimate.time.proposal_s = stopwatch.lap();
 
@@ -101,7 +95,7 @@ FilterEstimate ParticleFilter::hold(PoseLikelihood& likelihood, const ProcessSte
   FilterEstimate estimate;
   ++frame_;
   predict(step);
-  drawFromKernel(takeKernel(step));
+  drawFromProcess(step);
   data_share_.setZero();
   likelihood.prepare(poses_);
   summarise(estimate, step);
@@ -113,13 +107,6 @@ void ParticleFilter::undo() {
   velocities_ = velocities_before_;
   weights_ = weights_before_;
   last_mean_ = last_mean_before_;
-  lost_spread_ = lost_spread_before_;
-}
-
-TransitionKernel ParticleFilter::takeKernel(const ProcessStep& step) {
-  const TransitionKernel kernel(step, lost_spread_);
-  lost_spread_.setZero();
-  return kernel;
 }
 
 void ParticleFilter::summarise(FilterEstimate& estimate, const ProcessStep& step) {
@@ -133,7 +120,6 @@ void ParticleFilter::summarise(FilterEstimate& estimate, const ProcessStep& step
   updateVelocities(step);
   estimateVelocity(estimate);
   last_mean_ = estimate.pose.mean;
-  posterior_covariance_ = estimate.pose.covariance;
 }
 
 void ParticleFilter::resampleIfNeeded(PoseLikelihood& likelihood) {
@@ -155,9 +141,6 @@ void ParticleFilter::resampleIfNeeded(PoseLikelihood& likelihood) {
   predicted_.resize(count);
   log_proposal_ratio_.resize(count);
   likelihood.resample(source_);
-  // The paper's filter is left as it is.
-  if (config_.proposal == Proposal::kInformed)
-    lost_spread_ += posterior_covariance_ / std::max(kLeastLineages, effectiveSampleSize(weights_));
   weights_.assign(count, 1.0 / static_cast<double>(count));
 }
 
@@ -165,7 +148,7 @@ void ParticleFilter::predict(const ProcessStep& step) {
   for (std::size_t i = 0; i < poses_.size(); ++i) predicted_[i] = step.predict(poses_[i], velocities_[i]);
 }
 
-void ParticleFilter::findModes(PoseLikelihood& likelihood, const TransitionKernel& kernel, double exponent,
+void ParticleFilter::findModes(PoseLikelihood& likelihood, const ProcessStep& step, double exponent,
                                const Hypotheses& hypotheses) {
   const PoseStatistics predicted = poseStatistics(predicted_, weights_, last_mean_);
   ModeSearch::Starts starts;
@@ -178,7 +161,7 @@ void ParticleFilter::findModes(PoseLikelihood& likelihood, const TransitionKerne
   region_ = predicted_;
   for (const ModeSearchStart& start : starts) region_.push_back(start.pose);
   region_.insert(region_.end(), hypotheses.always.begin(), hypotheses.always.end());
-  const double reach = 2.0 * std::sqrt(kernel.widestComponent().shape.covariance().diagonal().head<3>().maxCoeff());
+  const double reach = 2.0 * std::sqrt(step.widestComponent().variances.head<3>().maxCoeff());
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-reach, reach}) {
       region_.push_back(predicted.mean);
@@ -187,7 +170,7 @@ void ParticleFilter::findModes(PoseLikelihood& likelihood, const TransitionKerne
   }
   likelihood.prepare(region_);
 
-  ModeSearch search(likelihood, kernel, exponent, object_radius_m_);
+  ModeSearch search(likelihood, step, exponent, object_radius_m_);
   const PredictedPose expected = {predicted.mean, predicted.covariance};
   search.run(expected, starts, hypotheses.always, kMaxModes, modes_);
   const bool is_poor = modes_.empty() || !likelihood.explains(modes_.front().pose);
@@ -212,33 +195,35 @@ double ParticleFilter::choiceDraw(std::size_t particle) const {
   return value - std::floor(value);
 }
 
-Pose ParticleFilter::drawPrior(const TransitionKernel& kernel, std::size_t particle) const {
+Pose ParticleFilter::drawPrior(const ProcessStep& step, std::size_t particle) const {
   const double choice = random_.uniform(RandomPurpose::kComponent, frame_, static_cast<std::uint32_t>(particle + 1));
-  return perturb(predicted_[particle], kernel.sample(choice, normalDraw(particle)));
+  const int k = step.numComponents() > 1 && choice > step.component(0).weight ? 1 : 0;
+  const Vector6d displacement = step.component(k).variances.cwiseSqrt().cwiseProduct(normalDraw(particle));
+  return perturb(predicted_[particle], displacement);
 }
 
-void ParticleFilter::drawFromKernel(const TransitionKernel& kernel) {
+void ParticleFilter::drawFromProcess(const ProcessStep& step) {
   for (std::size_t i = 0; i < poses_.size(); ++i) {
-    poses_[i] = drawPrior(kernel, i);
+    poses_[i] = drawPrior(step, i);
     log_proposal_ratio_[i] = 0.0;
   }
   data_share_.setIdentity();
   expected_.reset();
 }
 
-void ParticleFilter::drawInformed(const TransitionKernel& kernel) {
-  const InformedProposal proposal(kernel, modes_);
-  if (proposal.empty()) return drawFromKernel(kernel);
+void ParticleFilter::drawInformed(const ProcessStep& step) {
+  const InformedProposal proposal(step, modes_);
+  if (proposal.empty()) return drawFromProcess(step);
   const double prior_share = config_.prior_share;
   MixtureMoments moments;
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     const InformedProposal::ForParticle informed(proposal, predicted_[i]);
     informed.addTo(moments, weights_[i]);
     const double choice = choiceDraw(i);
-    poses_[i] = choice < prior_share ? drawPrior(kernel, i)
+    poses_[i] = choice < prior_share ? drawPrior(step, i)
                                      : informed.sample((choice - prior_share) / (1.0 - prior_share), normalDraw(i));
     const Vector6d displacement = difference(poses_[i], predicted_[i]);
-    const double log_prior = kernel.logDensity(displacement) - logRotationVolume(displacement.tail<3>());
+    const double log_prior = step.logDensity(displacement) - logRotationVolume(displacement.tail<3>());
     // log of p / (alpha p + (1 - alpha) q)
     const double log_informed = informed.logDensity(poses_[i]);
     log_proposal_ratio_[i] = -std::log(prior_share + (1.0 - prior_share) * std::exp(log_informed - log_prior));

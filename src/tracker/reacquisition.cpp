@@ -73,7 +73,7 @@ double worthFollowing(const SearchRegion& region, double remoteness) {
 /// Evidence [nat] against a pose to which an object that was surely followed could hardly have moved; no more than that
 /// it was something else that was followed.
 double unreachable(const FoundPose& one, const Pose& T_camera_centre, const OtherPoses& others) {
-  constexpr double kMostNat = 4.0;
+  constexpr double kMostNat = 1.5;
   if (!others.reach) return 0.0;
   const Eigen::Vector3d moved = one.T_camera_centre.translation() - T_camera_centre.translation();
   return std::min(kMostNat, 0.5 * moved.cwiseAbs2().cwiseQuotient(*others.reach).sum());

@@ -46,7 +46,7 @@ class InformedProposalDensity : public testing::Test {
 
 TEST_F(InformedProposalDensity, BelongsToTheSamples) {
   // E_q[g / q] = 1 for any normalised density g inside of q, only if q is the density of what is drawn.
-  const InformedProposal proposal(TransitionKernel(step_), modes_);
+  const InformedProposal proposal(step_, modes_);
   const Pose predicted = perturb(Pose::Identity(), (Vector6d() << 0.005, 0, 0.01, 0.2, -0.3, 0.1).finished());
   const InformedProposal::ForParticle informed(proposal, predicted);
   // About the middle of one component, narrower than it.
@@ -76,7 +76,7 @@ TEST_F(InformedProposalDensity, IsTheProductOfPriorAndModelForOneExactMode) {
   LocalMode mode = modes_.front();
   mode.pose = Pose::Identity();
   const Vector6d predicted = (Vector6d() << 0.002, 0, 0, 0.001, 0, 0).finished();
-  const InformedProposal proposal(TransitionKernel(step), {mode});
+  const InformedProposal proposal(step, {mode});
   const InformedProposal::ForParticle informed(proposal, perturb(Pose::Identity(), predicted));
   const Matrix6d prior = step.component(0).variances.cwiseInverse().asDiagonal();
   const Vector6d mean = (prior + mode.information).ldlt().solve(mode.slope + prior * predicted);
@@ -89,7 +89,7 @@ TEST_F(InformedProposalDensity, IsTheProductOfPriorAndModelForOneExactMode) {
 }
 
 TEST_F(InformedProposalDensity, WithoutModesThereIsNone) {
-  EXPECT_TRUE(InformedProposal(TransitionKernel(step_), {}).empty());
+  EXPECT_TRUE(InformedProposal(step_, {}).empty());
 }
 
 }  // namespace

@@ -15,5 +15,4 @@ add_tracker_test(renderer_oracle_tests SOURCES
 add_tracker_test(filter_oracle_tests SOURCES
   oracle/informed_proposal_test.cpp
   oracle/kalman_test.cpp
-  oracle/proposal_test.cpp
-  oracle/unseen_direction_test.cpp)
+  oracle/proposal_test.cpp)

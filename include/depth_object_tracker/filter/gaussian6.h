@@ -21,7 +21,6 @@ class Gaussian6 {
   const Vector6d& mean() const { return mean_; }
   Matrix6d covariance() const { return factor_ * factor_.transpose(); }
   Vector6d sample(const Vector6d& standard_normal) const { return mean_ + factor_ * standard_normal; }
-  double logDeterminant() const { return 2.0 * factor_.diagonal().array().log().sum(); }
   /// [nat]
   double logDensity(const Vector6d& x) const;
 

@@ -1,27 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proposal of every particle: its own transition kernel times the local models of the frame's likelihood.
+// Proposal of every particle: its own process prior times the local models of the frame's likelihood.
 #pragma once
 
 #include "depth_object_tracker/filter/gaussian6.h"
 #include "depth_object_tracker/filter/mixture_moments.h"
 #include "depth_object_tracker/filter/mode_search.h"
-#include "depth_object_tracker/filter/transition_kernel.h"
 
 #include <array>
 #include <vector>
 
 namespace depth_object_tracker {
 
-/// q(r | particle) = sum_jk c_jk N(r; m_jk, S_jk) over modes j and the kernel's components k, in mode j's chart, where
+/// q(r | particle) = sum_jk c_jk N(r; m_jk, S_jk) over modes j and process components k, in mode j's chart, where
 /// S = (A_j + Q_k^-1)^-1 and m = S (b_j + Q_k^-1 mu) with the particle's prediction mu. Where a mode's quadratic model
 /// is exact this is the optimal proposal: weights do not depend on the draw.
 class InformedProposal {
  public:
   static constexpr std::size_t kMaxModes = 2;
-  static constexpr std::size_t kMaxComponents = kMaxModes * TransitionKernel::kMaxComponents;
+  static constexpr std::size_t kMaxComponents = kMaxModes * ProcessStep::kMaxComponents;
 
-  /// @param modes at most kMaxModes, best first. Empty: only the kernel is left.
-  InformedProposal(const TransitionKernel& kernel, const std::vector<LocalMode>& modes);
+  /// @param modes at most kMaxModes, best first. Empty: only the process model is left.
+  InformedProposal(const ProcessStep& step, const std::vector<LocalMode>& modes);
 
   bool empty() const { return num_components_ == 0; }
 
@@ -49,8 +48,8 @@ class InformedProposal {
  private:
   struct Component {
     std::size_t mode;
-    double log_weight;           // kernel component's weight and mode's height
-    Matrix6d prior_information;  // Q_k^-1
+    double log_weight;           // process component's weight and mode's height
+    Vector6d prior_information;  // diagonal of Q_k^-1
     Matrix6d covariance;         // S
     Matrix6d precision;
     Gaussian6 shape;               // N(0, inflated S)

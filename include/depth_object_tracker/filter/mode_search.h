@@ -5,7 +5,7 @@
 
 #include "depth_object_tracker/filter/inline_vector.h"
 #include "depth_object_tracker/filter/pose_likelihood.h"
-#include "depth_object_tracker/filter/transition_kernel.h"
+#include "depth_object_tracker/model/process_model.h"
 
 #include <optional>
 #include <vector>
@@ -29,7 +29,7 @@ struct ModeSearchStart {
 /// Prior of the frame that all starts share.
 struct PredictedPose {
   Pose mean = Pose::Identity();
-  Matrix6d covariance = Matrix6d::Zero();  ///< spread of the particles' predictions, the kernel not included
+  Matrix6d covariance = Matrix6d::Zero();  ///< spread of the particles' predictions, process noise not included
 };
 
 /// Does not ask the heap for memory while there are no hypotheses.
@@ -39,8 +39,7 @@ class ModeSearch {
   using Starts = InlineVector<ModeSearchStart, kMaxStarts>;
 
   /// @param object_radius_m makes rotations comparable to translations when directions are ranked.
-  ModeSearch(PoseLikelihood& likelihood, const TransitionKernel& kernel, double likelihood_exponent,
-             double object_radius_m);
+  ModeSearch(PoseLikelihood& likelihood, const ProcessStep& step, double likelihood_exponent, double object_radius_m);
 
   /// @param starts all climbed from. @param hypotheses of which only the most promising are.
   /// @param[out] modes the best one first, then others that compete with it (at most `max_modes`); empty without
@@ -84,7 +83,7 @@ class ModeSearch {
   double temperedLogLikelihood(const Pose& pose, int thread) const;
 
   PoseLikelihood& likelihood_;
-  const TransitionKernel& kernel_;
+  const ProcessStep& step_;
   double exponent_;
   double object_radius_m_;
 };

@@ -7,7 +7,6 @@
 #include "depth_object_tracker/filter/pose_likelihood.h"
 #include "depth_object_tracker/filter/pose_statistics.h"
 #include "depth_object_tracker/filter/random.h"
-#include "depth_object_tracker/filter/transition_kernel.h"
 #include "depth_object_tracker/geometry/symmetry.h"
 #include "depth_object_tracker/model/process_model.h"
 
@@ -83,16 +82,13 @@ class ParticleFilter {
   void resampleIfNeeded(PoseLikelihood& likelihood);
   void predict(const ProcessStep& step);
   /// Fills modes_.
-  void findModes(PoseLikelihood& likelihood, const TransitionKernel& kernel, double exponent,
-                 const Hypotheses& hypotheses);
-  void drawFromKernel(const TransitionKernel& kernel);
-  void drawInformed(const TransitionKernel& kernel);
+  void findModes(PoseLikelihood& likelihood, const ProcessStep& step, double exponent, const Hypotheses& hypotheses);
+  void drawFromProcess(const ProcessStep& step);
+  void drawInformed(const ProcessStep& step);
   void foldSymmetries();
   void updateVelocities(const ProcessStep& step);
   void estimateVelocity(FilterEstimate& estimate) const;
-  Pose drawPrior(const TransitionKernel& kernel, std::size_t particle) const;
-  /// What the last resampling took is given back, once.
-  TransitionKernel takeKernel(const ProcessStep& step);
+  Pose drawPrior(const ProcessStep& step, std::size_t particle) const;
   Vector6d normalDraw(std::size_t particle) const;
   double choiceDraw(std::size_t particle) const;
 
@@ -110,8 +106,6 @@ class ParticleFilter {
   std::vector<Vector6d> velocities_before_;
   std::vector<double> weights_before_;
   Pose last_mean_before_ = Pose::Identity();
-  Matrix6d posterior_covariance_ = Matrix6d::Zero();
-  Matrix6d lost_spread_ = Matrix6d::Zero(), lost_spread_before_ = Matrix6d::Zero();  // by resampling
   std::vector<Pose> predicted_;
   std::vector<double> log_proposal_ratio_;  // log p(r | r_prev) - log q(r)
   std::vector<double> log_likelihoods_;
