@@ -227,6 +227,7 @@ std::optional<Pose> LookAlikeCheck::findNearby(DepthLikelihood& likelihood, cons
   if (poses_.empty()) return std::nullopt;
   poses_.push_back(T_camera_centre);
   likelihood.prepare(poses_);
+  poses_.pop_back();
   const double now = likelihood.logLikelihood(T_camera_centre, 0);
   double highest = now - kPromisingNat / exponent;
   for (const Pose& pose : poses_) {

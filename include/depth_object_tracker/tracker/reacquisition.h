@@ -59,7 +59,8 @@ class Reacquisition {
   std::vector<Pose> lookAround(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre,
                                const Vector6d& variances);
 
-  /// An image in which the object is surely seen at a pose: how well does it fit? Cheap.
+  /// An image in which the object is surely seen at a pose: how well does it fit? Cheap. @return how much likelier it
+  /// is the object than something else [nat].
   double learn(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre);
 
   /// Score that the object has where it is surely seen, on a search's pixels.
