@@ -46,6 +46,10 @@ void ParticleFilter::shiftVelocities(const Vector6d& shift) {
   for (Vector6d& velocity : velocities_) velocity += shift;
 }
 
+void ParticleFilter::changeVelocities(const std::function<Vector6d(const Vector6d&, const Pose&)>& change) {
+  for (std::size_t i = 0; i < poses_.size(); ++i) velocities_[i] = change(velocities_[i], poses_[i]);
+}
+
 void ParticleFilter::moveInObject(const Pose& T_before_now) {
   for (Pose& pose : poses_) pose = pose * T_before_now;
   last_mean_ = last_mean_ * T_before_now;

@@ -13,10 +13,10 @@ constexpr int kStepsPerHalfTurn = 32;
 constexpr double kStepRad = M_PI / kStepsPerHalfTurn;
 constexpr double kContradictedNat = 3.0;
 constexpr double kAnyAngleVariance = M_PI * M_PI / 3.0;
-constexpr double kRegionStepRad = M_PI / 3.0;
 
 constexpr int kLeastStepsToTurn = 8;
 constexpr double kLeastTurnRad = 0.005;
+constexpr double kRateHalfLifeS = 0.2;
 constexpr double kDoubtedAbove = 1e-4;  // [rad^2]
 constexpr double kShownHalfLifeS = 0.1;
 constexpr double kWrongShare = 0.1, kDoubtedHalfLifeS = 1.0;  // of turns to what looks alike
@@ -62,7 +62,7 @@ void FreeTurn::restart(double stddev_rad) {
   for (Axis& axis : axes_) {
     axis.variance = std::min(stddev_rad * stddev_rad, kAnyAngleVariance);
     axis.is_free = true;
-    axis.doubted = 0.0;
+    axis.rate = axis.doubted = 0.0;
   }
 }
 
@@ -71,7 +71,7 @@ std::optional<Pose> FreeTurn::update(DepthLikelihood& likelihood, const Pose& pr
   if (axes_.empty()) return std::nullopt;
   region_.clear();
   for (const Axis& axis : axes_) {
-    for (double turn = 0.0; turn < 2.0 * M_PI; turn += kRegionStepRad) {
+    for (double turn = 0.0; turn < 2.0 * M_PI; turn += kStepRad) {
       region_.push_back(estimate * turnAbout(axis.axis, turn));
     }
   }
@@ -86,13 +86,21 @@ std::optional<Pose> FreeTurn::update(DepthLikelihood& likelihood, const Pose& pr
     axis.is_free = back + forth > 0;
     axis.doubted *= std::exp2(-motion.dt_s / kDoubtedHalfLifeS);
     const bool shows_nothing = back + forth >= 2 * kStepsPerHalfTurn;  // as of a can: any turn is as good
-    if (back + forth < kLeastStepsToTurn || shows_nothing) {
+    axis.rate = axis.is_free ? axis.rate * std::exp2(-motion.dt_s / kRateHalfLifeS)
+                             : motion.angular_velocity.dot(estimate.linear() * axis.axis.direction);
+    const double back_rad = -axis.axis.direction.dot(surprise);
+    if (shows_nothing) {
+      axis.variance = std::min(variance, kAnyAngleVariance);
+      if (std::abs(back_rad) > kLeastTurnRad) turn = turnAbout(axis.axis, back_rad);
+      continue;
+    }
+    if (back + forth < kLeastStepsToTurn) {
       const double shown = squaredMean(-(back + 0.5) * kStepRad, (forth + 0.5) * kStepRad);
       axis.variance = std::min(variance, std::max(shown, axis.variance * std::exp2(-motion.dt_s / kShownHalfLifeS)));
       continue;
     }
     const double from = -(back + 1.5) * kStepRad, to = (forth + 1.5) * kStepRad;
-    const AngleMoments angle = truncatedNormal(-axis.axis.direction.dot(surprise), variance, from, to);
+    const AngleMoments angle = truncatedNormal(back_rad, variance, from, to);
     axis.variance = angle.variance;
     if (std::abs(angle.mean) > kLeastTurnRad) turn = turnAbout(axis.axis, angle.mean);
   }
@@ -102,6 +110,7 @@ std::optional<Pose> FreeTurn::update(DepthLikelihood& likelihood, const Pose& pr
 void FreeTurn::wait(const Pose& estimate, const Motion& motion) {
   for (Axis& axis : axes_) {
     axis.is_free = true;
+    axis.rate *= std::exp2(-motion.dt_s / kRateHalfLifeS);
     axis.variance =
         std::min(axis.variance + grownBy(motion, estimate.linear() * axis.axis.direction), kAnyAngleVariance);
     axis.doubted *= std::exp2(-motion.dt_s / kDoubtedHalfLifeS);
@@ -114,6 +123,16 @@ void FreeTurn::turned(const Pose& T_before_now) {
     const double angle = axis.axis.direction.dot(turn);
     axis.doubted = std::max(axis.doubted, kWrongShare * angle * angle);
   }
+}
+
+Vector6d FreeTurn::shownPart(const Vector6d& velocity, const Pose& T_camera_centre) const {
+  Vector6d shown = velocity;
+  for (const Axis& axis : axes_) {
+    if (!axis.is_free) continue;
+    const Eigen::Vector3d direction = T_camera_centre.linear() * axis.axis.direction;
+    shown.tail<3>() += (axis.rate - direction.dot(shown.tail<3>())) * direction;
+  }
+  return shown;
 }
 
 int FreeTurn::stepsAllowed(DepthLikelihood& likelihood, const Pose& T_camera_centre, const ScrewAxis& axis, int way,

@@ -28,7 +28,8 @@ constexpr double kBroadM = 0.012;
 constexpr ClimbSchedule kClimb = {kBroadM, 0.002, 5};
 constexpr double kNearbyNat = 3.0, kSurelyNat = 8.0;
 constexpr double kPromisingNat = 5.0, kPerhapsPromisingNat = 30.0;
-constexpr std::size_t kClimbsWhenNew = 3;
+constexpr std::size_t kPerImage = 8, kClimbsWhenNew = 3;
+constexpr double kImpossibleNat = 4.0;  // what was known speaks against a turn
 constexpr double kMostNat = 4.0;
 constexpr double kWorthFollowingNat = 1.5;  // less is chance, in every image
 constexpr double kForgottenHalfLifeS = 0.25;
@@ -168,7 +169,6 @@ LookAlikes findLookAlikes(const TriangleMesh& mesh, const Eigen::Vector3d& centr
 }
 
 void LookAlikeCheck::rankCandidates(DepthLikelihood& likelihood, const Pose& T_camera_centre) {
-  constexpr std::size_t kPerImage = 8;
   const std::size_t count = std::min(kPerImage, look_alikes_.far.size());
   poses_.clear();
   for (std::size_t i = 0; i < count; ++i) {
@@ -188,6 +188,7 @@ void LookAlikeCheck::rankCandidates(DepthLikelihood& likelihood, const Pose& T_c
 std::optional<Pose> LookAlikeCheck::findBetter(DepthLikelihood& likelihood, const Pose& T_camera_centre,
                                                double exponent, const TurnPrior& prior, double dt_s) {
   if (look_alikes_.far.empty()) return std::nullopt;
+  illusions_.age(dt_s);
   if (const std::optional<Pose> nearby = findNearby(likelihood, T_camera_centre, exponent)) return nearby;
   if (prior.was_followed) pending_.reset();
   rankCandidates(likelihood, T_camera_centre);
@@ -207,13 +208,25 @@ std::optional<Pose> LookAlikeCheck::findBetter(DepthLikelihood& likelihood, cons
     found = value;
     best = climbed;
   }
-  if (best && found > needed(T_camera_centre, *best, prior)) {
+  if (best && found - illusions_.known(T_camera_centre.inverse() * *best) > needed(T_camera_centre, *best, prior)) {
     pending_.reset();
     return best;
   }
+  if (best) learnIllusion(T_camera_centre.inverse() * *best, found, prior, dt_s);
   if (prior.was_followed) return std::nullopt;
   if (!pending_ && best && found > kWorthFollowingNat) pending_ = Pending{T_camera_centre.inverse() * *best, 0.0};
   return followPending(likelihood, T_camera_centre, prior, evidence, dt_s);
+}
+
+void LookAlikeCheck::learnIllusion(const Pose& T_centre_centre, double nat, const TurnPrior& prior, double dt_s) {
+  const double turned = angle(T_centre_centre.linear()) / prior.stddev_rad;
+  const double images = static_cast<double>(look_alikes_.far.size()) / static_cast<double>(kPerImage);
+  const double since_last_s = dt_s * std::max(1.0, images);
+  if (0.5 * turned * turned > kImpossibleNat) {
+    illusions_.learn(T_centre_centre, nat, since_last_s);
+  } else {
+    illusions_.fade(T_centre_centre, nat, since_last_s);
+  }
 }
 
 std::optional<Pose> LookAlikeCheck::findNearby(DepthLikelihood& likelihood, const Pose& T_camera_centre,

@@ -107,8 +107,10 @@ void ObjectTracker::Implementation::turnToLookAlike(FilterEstimate& estimate, Po
   if (prior.was_followed) prior.stddev_rad = free_turn.isFree() ? free_turn.stddevRad() : kUsualTurnRad;
   const std::optional<Pose> better = look_alikes.findBetter(likelihood, estimate.pose.mean, exponent, prior, dt_s);
   if (!better) return;
-  free_turn.turned(estimate.pose.mean.inverse() * *better);
-  filter.moveInObject(estimate.pose.mean.inverse() * *better);
+  const Pose turn = estimate.pose.mean.inverse() * *better;
+  free_turn.turned(turn);
+  look_alikes.moved(turn);
+  filter.moveInObject(turn);
   estimate.pose.mean = *better;
   assessment = assess(estimate);
 }
@@ -120,7 +122,13 @@ void ObjectTracker::Implementation::turnToMiddle(FilterEstimate& estimate, PoseA
   if (assessment.visibleShare() < kSeenAboveVisibleFraction) return free_turn.wait(estimate.pose.mean, motion);
   const Pose predicted = step_in_use->predict(last_mean.mean, last_velocity);
   const std::optional<Pose> turn = free_turn.update(likelihood, predicted, estimate.pose.mean, exponent, motion);
+  const auto shown_part = [this](const Vector6d& velocity, const Pose& pose) {
+    return free_turn.shownPart(velocity, pose);
+  };
+  if (free_turn.isFree()) filter.changeVelocities(shown_part);
+  estimate.velocity = shown_part(estimate.velocity, estimate.pose.mean);
   if (!turn) return;
+  look_alikes.moved(*turn);
   filter.moveInObject(*turn);
   estimate.pose.mean = estimate.pose.mean * *turn;
   assessment = assess(estimate);

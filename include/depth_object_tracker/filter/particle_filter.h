@@ -10,6 +10,7 @@
 #include "depth_object_tracker/geometry/symmetry.h"
 #include "depth_object_tracker/model/process_model.h"
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -74,6 +75,8 @@ class ParticleFilter {
 
   /// Adds to all velocities [m/s, rad/s]: what they are relative to has changed.
   void shiftVelocities(const Vector6d& shift);
+  /// Changes each particle's velocity. @param change of a velocity [m/s, rad/s, camera axes] at a pose T_camera_centre.
+  void changeVelocities(const std::function<Vector6d(const Vector6d&, const Pose&)>& change);
   /// Tells all that is remembered in the axes of a camera that has moved. @param T_now_before p_now = T p_before.
   void moveCamera(const Pose& T_now_before);
 

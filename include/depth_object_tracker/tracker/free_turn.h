@@ -27,12 +27,17 @@ class FreeTurn {
   /// @param stddev_rad of the angle, from now on; infinite = nothing is known of it.
   void restart(double stddev_rad);
 
-  /// @param predicted, estimate T_camera_centre before and after the image. @param exponent gamma of the filter.
+  /// @param predicted, estimate T_camera_centre before and after the image.
+  /// @param exponent gamma of the filter.
   /// @param motion since the last image.
   /// @return turn, in the centre's axes, that takes the estimate to the middle of what may be; none where the image
   /// shows the angle.
   std::optional<Pose> update(DepthLikelihood& likelihood, const Pose& predicted, const Pose& estimate, double exponent,
                              const Motion& motion);
+
+  /// Particles turn about an axis that is not shown as chance has it, and go on doing so.
+  /// @param velocity m/s, rad/s, camera axes. @return with the rate about such axes that was last seen, dying down.
+  Vector6d shownPart(const Vector6d& velocity, const Pose& T_camera_centre) const;
 
   /// An image that shows too little to say anything of the angle.
   void wait(const Pose& estimate, const Motion& motion);
@@ -53,6 +58,7 @@ class FreeTurn {
   struct Axis {
     ScrewAxis axis;
     double variance = 0.0;  // [rad^2]
+    double rate = 0.0;      // [rad/s], when it was last shown
     double doubted = 0.0;   // [rad^2], what it may be besides if the last turn was wrong
     bool is_free = false;   // the last image allows other angles
   };

@@ -5,6 +5,7 @@
 
 #include "depth_object_tracker/filter/depth_likelihood.h"
 #include "depth_object_tracker/geometry/symmetry.h"
+#include "depth_object_tracker/tracker/illusions.h"
 #include "depth_object_tracker/tracker/oriented_points.h"
 #include "depth_object_tracker/tracker/screw_axis.h"
 
@@ -43,7 +44,13 @@ class LookAlikeCheck {
                                  const TurnPrior& prior, double dt_s);
 
   /// Forgets what earlier images said.
-  void restart() { pending_.reset(); }
+  void restart() {
+    pending_.reset();
+    illusions_.clear();
+  }
+
+  /// The estimate was turned by a motion in the centre's axes.
+  void moved(const Pose& T_before_now) { illusions_.moved(T_before_now); }
 
   const LookAlikes& lookAlikes() const { return look_alikes_; }
 
@@ -64,7 +71,11 @@ class LookAlikeCheck {
   std::optional<Pose> followPending(DepthLikelihood& likelihood, const Pose& T_camera_centre, const TurnPrior& prior,
                                     const std::function<double(const Pose&)>& evidence, double dt_s);
 
+  /// @param nat evidence of the last image.
+  void learnIllusion(const Pose& T_centre_centre, double nat, const TurnPrior& prior, double dt_s);
+
   LookAlikes look_alikes_;
+  Illusions illusions_;
   std::vector<Candidate> candidates_;  // of this image
   std::vector<Pose> poses_;            // scratch
   std::optional<Pending> pending_;
