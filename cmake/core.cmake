@@ -48,6 +48,7 @@ add_library(depth_object_tracker_core SHARED
   src/render/tile_outline.cpp
   src/render/tile_rasterizer.cpp
   src/render/tile_renderer.cpp
+  src/tracker/angle_belief.cpp
   src/tracker/doubt.cpp
   src/tracker/estimate_board.cpp
   src/tracker/frame_budget.cpp

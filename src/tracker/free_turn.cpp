@@ -9,41 +9,19 @@
 namespace depth_object_tracker {
 namespace {
 
-constexpr int kStepsPerHalfTurn = 32;
+constexpr int kStepsPerHalfTurn = AngleBelief::kSteps / 2;
 constexpr double kStepRad = M_PI / kStepsPerHalfTurn;
-constexpr double kContradictedNat = 3.0;
-constexpr double kAnyAngleVariance = M_PI * M_PI / 3.0;
+constexpr double kContradictedNat = 3.0;  // less is chance
+constexpr double kMostAgainstNat = 6.0;   // of one image
+constexpr double kNegligibleShare = 1e-3;
 
+constexpr double kGoodShare = 0.5;  // of the likeliest angle's
+constexpr double kJumpRad = 0.4;    // in one image: no motion
 constexpr int kLeastStepsToTurn = 8;
 constexpr double kLeastTurnRad = 0.005;
 constexpr double kRateHalfLifeS = 0.2;
-constexpr double kDoubtedAbove = 1e-4;  // [rad^2]
-constexpr double kShownHalfLifeS = 0.1;
+constexpr double kDoubtedAbove = 1e-4;                        // [rad^2]
 constexpr double kWrongShare = 0.1, kDoubtedHalfLifeS = 1.0;  // of turns to what looks alike
-
-struct AngleMoments {
-  double mean, variance;
-};
-
-/// Of a normal angle that is known to lie in an interval.
-AngleMoments truncatedNormal(double mean, double variance, double from, double to) {
-  constexpr int kPoints = 64;
-  double sum = 0.0, first = 0.0, second = 0.0;
-  for (int k = 0; k < kPoints; ++k) {
-    const double angle = from + (to - from) * (k + 0.5) / kPoints;
-    const double weight = std::exp(-0.5 * (angle - mean) * (angle - mean) / variance);
-    sum += weight;
-    first += weight * angle;
-    second += weight * angle * angle;
-  }
-  if (!(sum > 1e-12)) return {std::clamp(mean, from, to), variance};
-  return {first / sum, std::max(second / sum - first * first / (sum * sum), 1e-6)};
-}
-
-/// Of an angle that is anywhere in between.
-double squaredMean(double from, double to) {
-  return (to * to * to - from * from * from) / (3.0 * (to - from));
-}
 
 /// An object turns about the axis that is not shown as fast as it does about the others, for a while one way.
 double grownBy(const FreeTurn::Motion& motion, const Eigen::Vector3d& axis_in_camera) {
@@ -55,12 +33,15 @@ double grownBy(const FreeTurn::Motion& motion, const Eigen::Vector3d& axis_in_ca
 }  // namespace
 
 FreeTurn::FreeTurn(std::vector<ScrewAxis> axes) {
-  for (const ScrewAxis& axis : axes) axes_.push_back({axis});
+  for (const ScrewAxis& axis : axes) {
+    axes_.emplace_back();
+    axes_.back().axis = axis;
+  }
 }
 
 void FreeTurn::restart(double stddev_rad) {
   for (Axis& axis : axes_) {
-    axis.variance = std::min(stddev_rad * stddev_rad, kAnyAngleVariance);
+    axis.belief.restart(stddev_rad);
     axis.is_free = true;
     axis.rate = axis.doubted = 0.0;
   }
@@ -69,50 +50,69 @@ void FreeTurn::restart(double stddev_rad) {
 std::optional<Pose> FreeTurn::update(DepthLikelihood& likelihood, const Pose& predicted, const Pose& estimate,
                                      double exponent, const Motion& motion) {
   if (axes_.empty()) return std::nullopt;
-  region_.clear();
-  for (const Axis& axis : axes_) {
-    for (double turn = 0.0; turn < 2.0 * M_PI; turn += kStepRad) {
-      region_.push_back(estimate * turnAbout(axis.axis, turn));
-    }
-  }
-  likelihood.prepare(region_);
-  const double least = likelihood.logLikelihood(estimate, 0) - kContradictedNat / exponent;
+  prepare(likelihood, estimate);
   const Eigen::Vector3d surprise = logSo3(predicted.linear().transpose() * estimate.linear());
   std::optional<Pose> turn;
   for (Axis& axis : axes_) {
-    const int back = stepsAllowed(likelihood, estimate, axis.axis, -1, least);
-    const int forth = stepsAllowed(likelihood, estimate, axis.axis, 1, least);
-    const double variance = axis.variance + grownBy(motion, estimate.linear() * axis.axis.direction);
-    axis.is_free = back + forth > 0;
     axis.doubted *= std::exp2(-motion.dt_s / kDoubtedHalfLifeS);
-    const bool shows_nothing = back + forth >= 2 * kStepsPerHalfTurn;  // as of a can: any turn is as good
-    axis.rate = axis.is_free ? axis.rate * std::exp2(-motion.dt_s / kRateHalfLifeS)
-                             : motion.angular_velocity.dot(estimate.linear() * axis.axis.direction);
-    const double back_rad = -axis.axis.direction.dot(surprise);
-    if (shows_nothing) {
-      axis.variance = std::min(variance, kAnyAngleVariance);
-      if (std::abs(back_rad) > kLeastTurnRad) turn = turnAbout(axis.axis, back_rad);
-      continue;
-    }
-    if (back + forth < kLeastStepsToTurn) {
-      const double shown = squaredMean(-(back + 0.5) * kStepRad, (forth + 0.5) * kStepRad);
-      axis.variance = std::min(variance, std::max(shown, axis.variance * std::exp2(-motion.dt_s / kShownHalfLifeS)));
-      continue;
-    }
-    const double from = -(back + 1.5) * kStepRad, to = (forth + 1.5) * kStepRad;
-    const AngleMoments angle = truncatedNormal(back_rad, variance, from, to);
-    axis.variance = angle.variance;
-    if (std::abs(angle.mean) > kLeastTurnRad) turn = turnAbout(axis.axis, angle.mean);
+    const double farther = axis.axis.direction.dot(surprise);
+    axis.belief.turnEstimate(farther);
+    axis.belief.diffuse(grownBy(motion, estimate.linear() * axis.axis.direction));
+    const int allowed = look(likelihood, estimate, exponent, axis);
+    axis.is_free = allowed > 0;
+    axis.rate *= std::exp2(-motion.dt_s / kRateHalfLifeS);
+    if (!axis.is_free) axis.rate = motion.angular_velocity.dot(estimate.linear() * axis.axis.direction);
+    if (std::abs(farther) > kJumpRad) axis.rate = 0.0;
+    // As long as where it should be is a good guess the estimate stays there: the mean would wander to the middle of
+    // what may be, as far as the angle spreads.
+    const bool is_good = axis.belief.near(-farther) > kGoodShare * axis.belief.peak();
+    const double angle = is_good ? -farther : axis.belief.moments().mean;
+    if (allowed < kLeastStepsToTurn || std::abs(angle) < kLeastTurnRad) continue;
+    axis.belief.turnEstimate(angle);
+    turn = turnAbout(axis.axis, angle);
   }
   return turn;
+}
+
+void FreeTurn::prepare(DepthLikelihood& likelihood, const Pose& estimate) {
+  region_.clear();
+  for (const Axis& axis : axes_) {
+    for (int k = 0; k < AngleBelief::kSteps; ++k) region_.push_back(estimate * turnAbout(axis.axis, k * kStepRad));
+  }
+  likelihood.prepare(region_);
+}
+
+int FreeTurn::look(DepthLikelihood& likelihood, const Pose& estimate, double exponent, Axis& axis) {
+  const double now = likelihood.logLikelihood(estimate, 0);
+  against_.fill(kMostAgainstNat);
+  against_[0] = 0.0;
+  int allowed = 0;
+  for (const int way : {-1, 1}) {
+    bool is_next = true;  // to the estimate, with nothing in between that is contradicted
+    for (int k = 1; k <= kStepsPerHalfTurn; ++k) {
+      const double angle = way * k * kStepRad;
+      if (!is_next && axis.belief.near(angle) < kNegligibleShare) continue;
+      const double worse = exponent * (now - likelihood.logLikelihood(estimate * turnAbout(axis.axis, angle), 0));
+      is_next = is_next && worse < kContradictedNat;
+      if (is_next) ++allowed;
+      against_[static_cast<std::size_t>((way * k + AngleBelief::kSteps) % AngleBelief::kSteps)] =
+          std::clamp(worse - kContradictedNat, 0.0, kMostAgainstNat);
+    }
+  }
+  axis.belief.weigh([this](double angle) {
+    const double steps = angle / kStepRad, below = std::floor(steps);
+    const auto k = static_cast<std::size_t>(static_cast<int>(below) + AngleBelief::kSteps);
+    const double share = steps - below;
+    return (1.0 - share) * against_[k % AngleBelief::kSteps] + share * against_[(k + 1) % AngleBelief::kSteps];
+  });
+  return allowed;
 }
 
 void FreeTurn::wait(const Pose& estimate, const Motion& motion) {
   for (Axis& axis : axes_) {
     axis.is_free = true;
     axis.rate *= std::exp2(-motion.dt_s / kRateHalfLifeS);
-    axis.variance =
-        std::min(axis.variance + grownBy(motion, estimate.linear() * axis.axis.direction), kAnyAngleVariance);
+    axis.belief.diffuse(grownBy(motion, estimate.linear() * axis.axis.direction));
     axis.doubted *= std::exp2(-motion.dt_s / kDoubtedHalfLifeS);
   }
 }
@@ -135,19 +135,15 @@ Vector6d FreeTurn::shownPart(const Vector6d& velocity, const Pose& T_camera_cent
   return shown;
 }
 
-int FreeTurn::stepsAllowed(DepthLikelihood& likelihood, const Pose& T_camera_centre, const ScrewAxis& axis, int way,
-                           double least) const {
-  for (int steps = 1; steps <= kStepsPerHalfTurn; ++steps) {
-    const Pose turned = T_camera_centre * turnAbout(axis, way * steps * kStepRad);
-    if (!(likelihood.logLikelihood(turned, 0) > least)) return steps - 1;
-  }
-  return kStepsPerHalfTurn;
+double FreeTurn::varianceOf(const Axis& axis) {
+  const AngleBelief::Moments moments = axis.belief.moments();
+  return moments.variance + moments.mean * moments.mean;
 }
 
 Matrix6d FreeTurn::widened(const Matrix6d& covariance, const Pose& T_camera_centre) const {
   Matrix6d result = covariance;
   for (const Axis& axis : axes_) {
-    const double variance = axis.variance + axis.doubted;
+    const double variance = varianceOf(axis) + axis.doubted;
     if (!axis.is_free && axis.doubted < kDoubtedAbove) continue;
     Vector6d turning;  // of the centre, per radian
     turning << T_camera_centre.linear() * axis.axis.point.cross(axis.axis.direction),
@@ -164,7 +160,7 @@ bool FreeTurn::isFree() const {
 
 double FreeTurn::stddevRad() const {
   double variance = 0.0;
-  for (const Axis& axis : axes_) variance = std::max(variance, axis.variance);
+  for (const Axis& axis : axes_) variance = std::max(variance, varianceOf(axis));
   return std::sqrt(variance);
 }
 

@@ -12,6 +12,7 @@ constexpr double kSameRad = 0.35;
 constexpr double kLearntHalfLifeS = 0.5;  // slower than a handle comes into view
 constexpr double kGoneHalfLifeS = 0.5, kForgottenHalfLifeS = 5.0;
 constexpr double kLeastNat = 0.02;
+constexpr double kMostNat = 20.0;  // what is better by more is not: it is the estimate that is contradicted
 
 double angleBetween(const Pose& a, const Pose& b) {
   return logSo3(a.linear().transpose() * b.linear()).norm();
@@ -52,8 +53,9 @@ void Illusions::learn(const Pose& T_estimate_pose, double nat, double dt_s) {
     illusions_.push_back({T_estimate_pose, 0.0});
     illusion = &illusions_.back();
   }
+  const double now = std::min(nat, kMostNat);
   illusion->T_estimate_pose = T_estimate_pose;
-  illusion->nat = nat + (illusion->nat - nat) * left(dt_s, nat > illusion->nat ? kLearntHalfLifeS : kGoneHalfLifeS);
+  illusion->nat = now + (illusion->nat - now) * left(dt_s, now > illusion->nat ? kLearntHalfLifeS : kGoneHalfLifeS);
 }
 
 void Illusions::fade(const Pose& T_estimate_pose, double nat, double dt_s) {

@@ -92,6 +92,41 @@ TEST_F(FreeTurnOfAMug, ATurnWithoutAReasonIsTakenBack) {
   EXPECT_LT(((at(kHandleBehind + 0.1) * *turn).translation() - at(kHandleBehind).translation()).norm(), 1e-3);
 }
 
+TEST_F(FreeTurnOfAMug, StaysWhereItShouldBeThoughTheMiddleIsElsewhere) {
+  // The handle is behind the mug, nearer to where it would be seen on one side.
+  const double angle = kHandleBehind + 0.35;
+  free_turn_.restart(0.3);
+  double estimate = angle;
+  for (int k = 0; k < 60; ++k) {
+    if (const auto turn = see(angle, estimate, estimate, Eigen::Vector3d::Zero()))
+      estimate += logSo3(turn->linear()).z();
+  }
+  EXPECT_TRUE(free_turn_.isFree());
+  EXPECT_NEAR(estimate, angle, 0.05);
+}
+
+TEST_F(FreeTurnOfAMug, SpinsOnlyAsItWasSeenTo) {
+  constexpr double kRate = 1.5;
+  const auto spin = [&](double angle, double rate) -> Eigen::Vector3d {
+    return at(angle).linear() * Eigen::Vector3d(0.3, 0.0, rate);
+  };
+  const auto shown_rate = [&](double angle) {
+    Vector6d velocity = Vector6d::Zero();
+    velocity.tail<3>() = spin(angle, 5.0);  // as particles have it
+    const Eigen::Vector3d shown = at(angle).linear().transpose() * free_turn_.shownPart(velocity, at(angle)).tail<3>();
+    EXPECT_NEAR(shown.x(), 0.3, 1e-9) << "about other axes as it is";
+    return shown.z();
+  };
+  see(kHandleBeside, kHandleBeside, kHandleBeside, spin(kHandleBeside, kRate));
+  EXPECT_NEAR(shown_rate(kHandleBeside), 5.0, 1e-9) << "seen: the particles are right";
+  see(kHandleBehind, kHandleBehind, kHandleBehind, spin(kHandleBehind, 5.0));
+  const double at_first = shown_rate(kHandleBehind);
+  EXPECT_LT(at_first, kRate);
+  EXPECT_GT(at_first, 0.5 * kRate);
+  for (int k = 0; k < 30; ++k) see(kHandleBehind, kHandleBehind, kHandleBehind, spin(kHandleBehind, 5.0));
+  EXPECT_LT(shown_rate(kHandleBehind), 0.1 * kRate);
+}
+
 TEST_F(FreeTurnOfAMug, ATurnToALookAlikeIsDoubtedForAWhile) {
   see(kHandleBeside, kHandleBeside, kHandleBeside, Eigen::Vector3d::Zero());
   Pose half_turn = Pose::Identity();

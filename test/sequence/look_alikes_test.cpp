@@ -112,5 +112,28 @@ TEST_F(LookAlikeChecked, TheRightTurnIsKept) {
   }
 }
 
+TEST_F(LookAlikeChecked, WhatLookedBetterWhenItCouldNotBeIsNoReasonLater) {
+  // A finger where the handle could be, for all that the estimate knows.
+  const Pose estimate = turned(2.5);
+  likelihood_.prepare({centre_truth_, estimate});
+  constexpr double kFingerNat = 14.0;
+  const double exponent =
+      kFingerNat / (likelihood_.logLikelihood(centre_truth_, 0) - likelihood_.logLikelihood(estimate, 0));
+  ASSERT_GT(exponent, 0.0);
+  const auto see = [&](double stddev_rad, int images) {
+    for (int k = 0; k < images; ++k) {
+      if (check_.findBetter(likelihood_, estimate, exponent, TurnPrior{true, stddev_rad}, 1.0 / 30.0)) return true;
+    }
+    return false;
+  };
+  constexpr double kSure = 0.3, kUnsure = 2.0;
+  EXPECT_TRUE(see(kUnsure, 12)) << "new evidence counts";
+  check_.restart();
+  EXPECT_FALSE(see(kSure, 90));
+  EXPECT_FALSE(see(kUnsure, 60)) << "it was there before";
+  check_.restart();
+  EXPECT_TRUE(see(kUnsure, 12));
+}
+
 }  // namespace
 }  // namespace depth_object_tracker

@@ -28,7 +28,9 @@ add_tracker_test(filter_unit_tests SOURCES
   unit/filter_resampling_test.cpp
   unit/filter_worker_pool_test.cpp)
 add_tracker_test(model_unit_tests SOURCES
+  unit/angle_belief_test.cpp
   unit/doubt_test.cpp
+  unit/illusions_test.cpp
   unit/model_occlusion_chain_test.cpp
   unit/model_process_test.cpp
   unit/model_slip_test.cpp

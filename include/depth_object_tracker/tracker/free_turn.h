@@ -3,16 +3,18 @@
 #pragma once
 
 #include "depth_object_tracker/filter/depth_likelihood.h"
+#include "depth_object_tracker/tracker/angle_belief.h"
 #include "depth_object_tracker/tracker/screw_axis.h"
 
+#include <array>
 #include <optional>
 #include <vector>
 
 namespace depth_object_tracker {
 
-/// For each axis the variance of the true angle about the estimate's. Between images it grows as the process has it; an
-/// image bounds it by the turns that explain it about as well. The particles do not tell: over a flat interval, the
-/// likelihood still is rough by a nat or two, and a cloud settles in one of its dents.
+/// For each axis what is believed of the true angle. Between images it spreads as the process has it; an image takes
+/// away the turns that it contradicts. The particles do not tell: over a flat interval, the likelihood still is rough
+/// by a nat or two, and a cloud settles in one of its dents.
 class FreeTurn {
  public:
   /// Between two images.
@@ -30,8 +32,8 @@ class FreeTurn {
   /// @param predicted, estimate T_camera_centre before and after the image.
   /// @param exponent gamma of the filter.
   /// @param motion since the last image.
-  /// @return turn, in the centre's axes, that takes the estimate to the middle of what may be; none where the image
-  /// shows the angle.
+  /// @return turn, in the centre's axes, that takes the estimate to where it should be or, where that is contradicted,
+  /// to the middle of what may be; none where the image shows the angle.
   std::optional<Pose> update(DepthLikelihood& likelihood, const Pose& predicted, const Pose& estimate, double exponent,
                              const Motion& motion);
 
@@ -57,17 +59,20 @@ class FreeTurn {
  private:
   struct Axis {
     ScrewAxis axis;
-    double variance = 0.0;  // [rad^2]
-    double rate = 0.0;      // [rad/s], when it was last shown
-    double doubted = 0.0;   // [rad^2], what it may be besides if the last turn was wrong
-    bool is_free = false;   // the last image allows other angles
+    AngleBelief belief;
+    double rate = 0.0;     // [rad/s], when it was last shown
+    double doubted = 0.0;  // [rad^2], what it may be besides if the last turn was wrong
+    bool is_free = false;  // the last image allows other angles
   };
-  /// How far the object can be turned one way, in steps, until the image contradicts.
-  int stepsAllowed(DepthLikelihood& likelihood, const Pose& T_camera_centre, const ScrewAxis& axis, int way,
-                   double least) const;
+  void prepare(DepthLikelihood& likelihood, const Pose& estimate);
+  /// What an image says of the angle. @return steps that it can be turned by, either way, until the image contradicts.
+  int look(DepthLikelihood& likelihood, const Pose& estimate, double exponent, Axis& axis);
+  /// About the estimate [rad^2].
+  static double varianceOf(const Axis& axis);
 
   std::vector<Axis> axes_;
-  std::vector<Pose> region_;  // scratch
+  std::vector<Pose> region_;                         // scratch
+  std::array<double, AngleBelief::kSteps> against_;  // scratch [nat], from the estimate on
 };
 
 }  // namespace depth_object_tracker
