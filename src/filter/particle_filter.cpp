@@ -5,6 +5,7 @@
 #include "depth_object_tracker/filter/resampling.h"
 #include "depth_object_tracker/filter/stopwatch.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace depth_object_tracker {
@@ -181,8 +182,14 @@ void ParticleFilter::findModes(PoseLikelihood& likelihood, const ProcessStep& st
   if (!is_poor || hypotheses.if_poor.empty()) return;
   region_.insert(region_.end(), hypotheses.if_poor.begin(), hypotheses.if_poor.end());
   likelihood.prepare(region_);
+  modes_nearby_ = modes_;
   for (const LocalMode& mode : modes_) starts.push_back({mode.pose, kNarrowWidthM});
   search.run(expected, starts, hypotheses.if_poor, kMaxModes, modes_);
+  // Far off, much of the image is explained badly by something: likelier, but no better than what is there already.
+  const auto is_no_better = [&likelihood](const LocalMode& mode) { return !likelihood.explains(mode.pose); };
+  if (modes_nearby_.empty()) return;
+  modes_.erase(std::remove_if(modes_.begin(), modes_.end(), is_no_better), modes_.end());
+  if (modes_.empty()) modes_ = modes_nearby_;
 }
 
 Vector6d ParticleFilter::normalDraw(std::size_t particle) const {

@@ -27,4 +27,14 @@ Vector6d searchVariances(double hidden_s) {
   return variances;
 }
 
+Vector6d hiddenVariances(const Vector6d& velocity, double hidden_s) {
+  constexpr double kSameSpeedS = 1.0, kLeastMps = 0.1, kLeastRadps = 0.4;
+  const double moving_s = kSameSpeedS * -std::expm1(-hidden_s / kSameSpeedS);
+  const auto variance = [&](double speed) { return speed * speed * moving_s * moving_s / 3.0; };
+  Vector6d variances;
+  variances.head<3>().setConstant(variance(std::hypot(velocity.head<3>().norm(), kLeastMps)));
+  variances.tail<3>().setConstant(variance(std::hypot(velocity.tail<3>().norm(), kLeastRadps)));
+  return variances;
+}
+
 }  // namespace depth_object_tracker

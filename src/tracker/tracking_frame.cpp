@@ -239,6 +239,9 @@ void ObjectTracker::Implementation::writeEstimate(const FilterEstimate& estimate
   const Eigen::Matrix3d R = estimate.pose.mean.linear();
   const Eigen::Vector3d origin_from_centre = -(R * centre_object);
   Matrix6d covariance = estimate.pose.covariance;
+  // Particles are held together while nothing is seen, to be near when it is again.
+  const bool may_go_anywhere = is_blind && mayReacquire() && !follows_hand;
+  if (may_go_anywhere) covariance.diagonal() += hiddenVariances(seen_velocity, unseen_s);
   if (!is_blind && mayReacquire()) covariance = free_turn.widened(covariance, estimate.pose.mean);
   if (const auto axis = freeAxisInCamera(estimate.pose.mean, symmetries)) {
     covariance.bottomRightCorner<3, 3>() += kFreeAngleVariance * (*axis) * axis->transpose();

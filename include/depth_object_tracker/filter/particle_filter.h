@@ -115,6 +115,7 @@ class ParticleFilter {
   std::vector<double> log_weights_;
   std::optional<PoseStatistics> expected_;  // posterior as the local models have it; none without them
   std::vector<LocalMode> modes_;            // of this frame
+  std::vector<LocalMode> modes_nearby_;     // scratch
   // Scratch, kept so that a frame allocates nothing.
   std::vector<Pose> region_;
   std::vector<int> offspring_, source_;
