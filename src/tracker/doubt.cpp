@@ -15,6 +15,8 @@ constexpr double kShakingScore = 0.6, kSomethingVisible = 0.04, kShakenForS = 0.
 constexpr double kPoorScoreOfLittle = 0.8, kPoorForS = 0.2;  // little that is seen often fits a little worse
 constexpr double kLookAroundForS = 2.0;                      // at every image; in vain: from time to time
 constexpr double kFirstCheckS = 0.75, kLastCheckS = 3.0;     // after a find, each twice as late as the one before
+constexpr double kOddNat = -2.5, kProvenNat = 2.0;
+constexpr double kLongestIntervalIfOddS = 1.0;
 constexpr double kShortestIntervalS = 0.3, kLongestIntervalS = 8.0;
 
 }  // namespace
@@ -32,13 +34,13 @@ void Doubt::update(double score, double visible_fraction, bool is_seen, double d
   is_seen_ = is_seen;
   since_look_s_ += dt_s;
   since_found_s_ += dt_s;
-  if (!is_mediocre_) interval_s_ = std::max(kShortestIntervalS, interval_s_ * std::exp2(-dt_s));
+  if (!is_mediocre_ && !isOdd()) interval_s_ = std::max(kShortestIntervalS, interval_s_ * std::exp2(-dt_s));
 }
 
 Doubt::Look Doubt::look() const {
   const bool is_due = since_look_s_ > interval_s_;
   if (is_seen_ && since_found_s_ > next_check_s_) return Look::kEverywhere;
-  if (is_mediocre_ && is_due) return Look::kEverywhere;
+  if ((is_mediocre_ || (is_seen_ && isOdd())) && is_due) return Look::kEverywhere;
   if (is_seen_ && shaken_s_ < kShakenForS && since_look_s_ > kLooksWhileShakenS) return Look::kEverywhere;
   return is_poor_ && (is_due || poor_s_ < kLookAroundForS) ? Look::kAround : Look::kNowhere;
 }
@@ -46,6 +48,13 @@ Doubt::Look Doubt::look() const {
 void Doubt::found() {
   since_found_s_ = 0.0;
   next_check_s_ = kFirstCheckS;
+  is_unproven_ = true;
+  is_odd_ = false;
+}
+
+void Doubt::judged(double log_odds) {
+  is_odd_ = log_odds < kOddNat;
+  if (log_odds > kProvenNat) is_unproven_ = false;
 }
 
 void Doubt::looked(Look look) {
@@ -54,7 +63,7 @@ void Doubt::looked(Look look) {
   }
   if (look == Look::kNowhere || (look == Look::kAround && poor_s_ < kLookAroundForS)) return;
   since_look_s_ = 0.0;
-  interval_s_ = std::min(kLongestIntervalS, 2.0 * interval_s_);
+  interval_s_ = std::min(isOdd() ? kLongestIntervalIfOddS : kLongestIntervalS, 2.0 * interval_s_);
 }
 
 }  // namespace depth_object_tracker

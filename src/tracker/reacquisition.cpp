@@ -215,6 +215,7 @@ std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const
   constexpr double kExplainsMore = 1.1;
   if (!found_.empty() && others.everywhere) {
     constexpr double kMuchLikelier = 2.0, kSureByItself = 2.0, kLikelier = 1.0, kFarLikelier = 6.0;
+    constexpr double kOddNat = -2.5, kLikelyByItself = 0.5, kLikelierThanOdd = 4.0;
     const auto best = std::max_element(found_.begin(), found_.end(), [this](const FoundPose& a, const FoundPose& b) {
       return logOdds(a) < logOdds(b);
     });
@@ -222,8 +223,11 @@ std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const
     const double more = best->assessment.log_likelihood / std::max(1.0, now.assessment.log_likelihood);
     const double far = is_here ? 0.0 : unreachable(*best, T_camera_centre, others);
     const double odds = logOdds(*best) - far, odds_now = logOdds(now);
-    const bool explains_more = more > (is_here ? 1.0 : kExplainsMore) || odds > odds_now + kFarLikelier;
-    if (explains_more && odds > std::max(kSureByItself, odds_now + (is_here ? kLikelier : kMuchLikelier))) {
+    const bool is_odd = others.is_unproven && odds_now < kOddNat;
+    const bool explains_more =
+        more > (is_here ? 1.0 : kExplainsMore) || odds > odds_now + (is_odd ? kLikelierThanOdd : kFarLikelier);
+    const double by_itself = is_odd ? kLikelyByItself : kSureByItself;
+    if (explains_more && odds > std::max(by_itself, odds_now + (is_here ? kLikelier : kMuchLikelier))) {
       return best->T_camera_centre;
     }
     return std::nullopt;

@@ -85,6 +85,7 @@ bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth
   const bool just_found = reacquired_s < kDoubtfulAfterFindS;
   OtherPoses others;
   others.occluders = known_occluders;
+  others.is_unproven = doubt.isUnproven();
   others.everywhere = look == Doubt::Look::kEverywhere;
   others.by_likelihood = just_found || others.everywhere;
   others.variances = just_found ? anyTurnVariances() : searchVariances(std::min(doubt.poorSince(), kDoubtfulReachS));
@@ -155,7 +156,9 @@ void ObjectTracker::Implementation::learnFit(const DepthImageView& depth, double
   const bool is_sure = seen_s > kSureAfterS || status.score() > kFits * reacquisition.usualScore();
   if (!mayReacquire() || !is_seen || !is_sure || moved_s < kSureAfterS || since_learnt_s < kEveryS) return;
   since_learnt_s = 0.0;
-  if (reacquisition.learn(depth, camera_in_use, last_mean.mean) > kSureNat) since_sure_s = 0.0;
+  const double log_odds = reacquisition.learn(depth, camera_in_use, last_mean.mean);
+  doubt.judged(log_odds);
+  if (log_odds > kSureNat) since_sure_s = 0.0;
 }
 
 }  // namespace depth_object_tracker

@@ -22,6 +22,10 @@ class Doubt {
   Look look() const;
   /// What was found may have been something else, and the object itself may come into view later.
   void found();
+  /// @param log_odds [nat] that what is followed is the object, by the image alone.
+  void judged(double log_odds);
+  /// Found, and never surely seen since.
+  bool isUnproven() const { return is_unproven_; }
   /// Tells that the image was looked at, in vain.
   void looked(Look look);
   /// What is seen fits worse than the sensor model expects: perhaps a neighbouring mode.
@@ -30,8 +34,11 @@ class Doubt {
   double poorSince() const { return poor_s_; }
 
  private:
+  bool isOdd() const { return is_unproven_ && is_odd_; }
+
   bool is_poor_ = false, is_mediocre_ = false;  // fits less than it could although it is in plain sight
   bool is_seen_ = false;
+  bool is_unproven_ = false, is_odd_ = false;
   double poor_s_ = 0.0;
   double shaken_s_ = 1e6;  // since the image contradicted the pose
   double since_look_s_ = 1e6;

@@ -26,8 +26,8 @@ class PoseSearch {
 /// @param hidden_s seconds since it was last seen, >= 0.
 Vector6d searchVariances(double hidden_s);
 
-/// How far the object has gone since it was last seen, as far as can be told: in some direction, at about the speed that
-/// it had, for a while. Narrower than searchVariances(), which are to reach whatever may have happened.
+/// How far the object has gone since it was last seen, as far as can be told: in some direction, at about the speed
+/// that it had, for a while. Narrower than searchVariances(), which are to reach whatever may have happened.
 /// @param velocity when it was last seen [m/s, rad/s]. @param hidden_s as above. @return [m^2, rad^2], of each axis.
 Vector6d hiddenVariances(const Vector6d& velocity, double hidden_s);
 

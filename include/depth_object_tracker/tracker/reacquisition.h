@@ -21,6 +21,7 @@ struct SearchRegion {
   bool on_table = false;                  ///< not is_known: it rests on a plane that the image shows
   /// Of where the object may be [m^2], about an estimate that was surely followed; none = anywhere.
   std::optional<Eigen::Vector3d> reach;
+  bool is_unproven = false;             ///< the estimate was found, and never surely seen since
   KnownOccluders* occluders = nullptr;  ///< the object is not where one of them is seen; null = none
 };
 
@@ -34,6 +35,7 @@ struct OtherPoses {
   bool by_likelihood = false;             ///< what explains more of the image is better, not what fits better
   /// Of where the object may be [m^2], about an estimate that was surely followed; none = anywhere.
   std::optional<Eigen::Vector3d> reach;
+  bool is_unproven = false;             ///< the estimate was found, and never surely seen since
   KnownOccluders* occluders = nullptr;  ///< the object is not where one of them is seen; null = none
 };
 
