@@ -64,10 +64,13 @@ double neededEvidence(const SearchRegion& region, double remoteness) {
   return between(0.6, 1.8 + (region.everywhere ? 0.0 : kMoreIfHidden), remoteness);
 }
 
-/// What fits by chance does so in the next image, too: only what is better than this adds up.
-double worthFollowing(const SearchRegion& region, double remoteness) {
-  constexpr double kMoreIfHidden = 0.5;
-  return between(0.3, 1.2 + (region.everywhere ? 0.0 : kMoreIfHidden), remoteness);
+/// What fits by chance does so in the next image, too: only what is better than this adds up. What fits as well as the
+/// object does, where it is expected, is hardly anything else.
+/// @param score 1 = as well as the object usually does.
+double worthFollowing(const SearchRegion& region, double remoteness, double score) {
+  constexpr double kMoreIfHidden = 0.5, kLessIfItFits = 1.8, kFits = 0.97, kFitsNot = 0.94;
+  const double fit = std::clamp((score - kFitsNot) / (kFits - kFitsNot), 0.0, 1.0);
+  return between(0.3 - kLessIfItFits * fit, 1.2 + (region.everywhere ? 0.0 : kMoreIfHidden), remoteness);
 }
 
 /// Evidence [nat] against a pose to which an object that was surely followed could hardly have moved; no more than that
@@ -124,8 +127,11 @@ std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const Pin
   const auto remote = [&](const FoundPose& one) {
     return usual_score_ ? remoteness(one.T_camera_centre, region) : 1.0;
   };
+  const auto score = [&](const FoundPose& one) {
+    return one.assessment.achieved / std::max(1e-9, one.assessment.expected) / usualScore();
+  };
   const auto evidence = [&](const FoundPose& one) {
-    return evidenceBefore(one.T_camera_centre) + logOdds(one) - worthFollowing(region, remote(one));
+    return evidenceBefore(one.T_camera_centre) + logOdds(one) - worthFollowing(region, remote(one), score(one));
   };
   const auto margin = [&](const FoundPose& one) { return evidence(one) - neededEvidence(region, remote(one)); };
   std::stable_sort(found_.begin(), found_.end(),
