@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -181,6 +182,44 @@ TEST(ProposalsInSixDimensions, GiveTheSamePosteriorMean) {
       std::printf("sudden %.2f, model off by %.3f: effective samples %.0f process, %.0f informed\n", sudden_share,
                   model_error, estimates[0].effective_sample_size, estimates[1].effective_sample_size);
     }
+  }
+}
+
+/// Two peaks along x: the object is at the near one, of which half is hidden; the far one covers more of the image.
+class TwoPlaces : public ToyLikelihood {
+ public:
+  explicit TwoPlaces(bool far_explains)
+      : ToyLikelihood([](const Vector6d& x) { return std::max(nat(x, 0.0, kNearNat), nat(x, kFarM, kFarNat)); },
+                      [](const Vector6d& x) {
+                        const Vector6d at = Vector6d::Unit(0) * (x[0] > 0.5 * kFarM ? kFarM : 0.0);
+                        return Linearisation{kInformation * (at - x), kInformation * Matrix6d::Identity()};
+                      }),
+        far_explains_(far_explains) {}
+
+  bool explains(const Pose& pose) override { return far_explains_ && vectorOf(pose)[0] > 0.5 * kFarM; }
+
+  static constexpr double kFarM = 0.06, kNearNat = 40.0, kFarNat = 60.0, kInformation = 1e6;
+
+ private:
+  static double nat(const Vector6d& x, double at, double peak) {
+    return peak - 0.5 * kInformation * (x - at * Vector6d::Unit(0)).squaredNorm();
+  }
+  bool far_explains_;
+};
+
+TEST(FarHypotheses, MustExplainWhatTheyCover) {
+  ProcessConfig process = randomWalk(0.05, 0.05);
+  process.sudden_motion_share = 0.02;
+  process.sudden_motion_scale = 6.0;
+  Hypotheses hypotheses;
+  hypotheses.if_poor = {perturb(Pose::Identity(), TwoPlaces::kFarM * Vector6d::Unit(0))};
+  for (const bool far_explains : {false, true}) {
+    ParticleFilter filter(FilterConfig(), kRadiusM, Symmetries());
+    filter.initialise(Pose::Identity());
+    TwoPlaces likelihood(far_explains);
+    FilterEstimate estimate;
+    for (int k = 0; k < 3; ++k) estimate = filter.update(likelihood, stepOf(process, kFrameS), 1.0, hypotheses);
+    EXPECT_NEAR(estimate.pose.mean.translation().x(), far_explains ? TwoPlaces::kFarM : 0.0, 0.005) << far_explains;
   }
 }
 

@@ -51,5 +51,25 @@ TEST(DoubtOf, AFindIsThreeLooksAtAllOfTheImageHoweverWellItFits) {
   EXPECT_NEAR(times[2], 3.0, 2.0 * kFrameS);
 }
 
+TEST(DoubtOf, AFindThatIsOddByItselfGoesOnUntilItIsSurelySeen) {
+  constexpr double kOddNat = -4.0, kSureNat = 3.0, kMiddlingNat = 0.0;
+  Doubt doubt;
+  doubt.judged(kOddNat);
+  EXPECT_TRUE(looks(doubt, 10.0, kGoodScore, Doubt::Look::kEverywhere).empty()) << "what was given is believed";
+  doubt.found();
+  EXPECT_TRUE(doubt.isUnproven());
+  doubt.judged(kOddNat);
+  const std::vector<double> times = looks(doubt, 10.0, kGoodScore, Doubt::Look::kEverywhere);
+  EXPECT_GE(times.size(), 8u);
+  EXPECT_LT(times.front(), 0.5);
+  doubt.judged(kMiddlingNat);
+  EXPECT_TRUE(doubt.isUnproven());
+  EXPECT_TRUE(looks(doubt, 10.0, kGoodScore, Doubt::Look::kEverywhere).empty());
+  doubt.judged(kSureNat);
+  EXPECT_FALSE(doubt.isUnproven());
+  doubt.judged(kOddNat);
+  EXPECT_TRUE(looks(doubt, 10.0, kGoodScore, Doubt::Look::kEverywhere).empty()) << "it was seen to be the object";
+}
+
 }  // namespace
 }  // namespace depth_object_tracker
