@@ -188,7 +188,7 @@ void LookAlikeCheck::rankCandidates(DepthLikelihood& likelihood, const Pose& T_c
 std::optional<Pose> LookAlikeCheck::findBetter(DepthLikelihood& likelihood, const Pose& T_camera_centre,
                                                double exponent, const TurnPrior& prior, double dt_s) {
   if (look_alikes_.far.empty()) return std::nullopt;
-  if (const std::optional<Pose> nearby = findNearby(likelihood, T_camera_centre, exponent)) return nearby;
+  if (std::optional<Pose> nearby = findNearby(likelihood, T_camera_centre, exponent)) return nearby;
   if (prior.was_followed) pending_.reset();
   rankCandidates(likelihood, T_camera_centre);
   const double now = likelihood.logLikelihood(T_camera_centre, 0);
