@@ -118,3 +118,5 @@ add_executable(mesh_reader
 target_include_directories(mesh_reader PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/cmake/no_ros ${CMAKE_CURRENT_SOURCE_DIR}/include)
 target_link_libraries(mesh_reader PRIVATE depth_object_tracker_warnings Eigen3::Eigen assimp::assimp)
 precompile_headers(depth_object_tracker_core ${CORE_HEADERS})
+count_lines(depth_object_tracker_core)
+count_lines(mesh_reader)

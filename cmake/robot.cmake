@@ -35,3 +35,4 @@ target_link_libraries(depth_object_tracker_robot
   PUBLIC depth_object_tracker_core
   PRIVATE depth_object_tracker_warnings ${urdfdom_LIBRARIES} ${orocos_kdl_LIBRARIES} ${KDL_PARSER_LIBRARY})
 precompile_headers(depth_object_tracker_robot ${CORE_HEADERS})
+count_lines(depth_object_tracker_robot)

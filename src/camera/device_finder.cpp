@@ -28,7 +28,7 @@ std::string findDeviceUri(const std::vector<DeviceDescription>& devices, const s
     if (candidate.uri == device) return candidate.uri;
   }
   // Where no particular device is asked for, the one that was unplugged comes before others.
-  const std::string same = findBySerial(devices, known_serial, serial_of);
+  std::string same = findBySerial(devices, known_serial, serial_of);
   if (!same.empty()) return same;
   if (device.empty()) return devices.empty() ? "" : devices.front().uri;
   if (device.front() == '#') {

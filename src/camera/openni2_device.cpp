@@ -149,6 +149,7 @@ void OpenNI2Device::setMode(const DepthCameraOptions& options) {
   const auto video_modes = supportedModes(*handles_->device.getSensorInfo(openni::SENSOR_DEPTH));
   if (video_modes.empty()) return;  // it has but one
   std::vector<DepthMode> modes;
+  modes.reserve(video_modes.size());
   for (const openni::VideoMode& video_mode : video_modes) modes.push_back(modeOf(video_mode));
   const DepthMode chosen = nearestMode(modes, options.mode);
   if (!(chosen == options.mode)) {

@@ -42,11 +42,12 @@ TileFit countTileFit(const DepthTile& tile, const PixelPlanes& planes, float tol
   RowSums sums;
   for (int tile_row = 0; tile_row < tile.tile_rows; ++tile_row) {
     for (int tile_col = 0; tile_col < tile.tile_cols; ++tile_col) {
-      if (tile.touched[static_cast<std::size_t>(tile_row * tile.tile_cols + tile_col)] == 0) continue;
+      const int index = tile_row * tile.tile_cols + tile_col;
+      if (tile.touched[static_cast<std::size_t>(index)] == 0) continue;
       for (int row = tile_row * kTileSize; row < (tile_row + 1) * kTileSize; ++row) {
         const int cell = row * tile.stride + tile_col * kTileSize;
-        const std::ptrdiff_t in_image =
-            static_cast<std::ptrdiff_t>(tile.row_begin + row) * planes.stride + tile.col_begin + tile_col * kTileSize;
+        const std::ptrdiff_t in_image = static_cast<std::ptrdiff_t>(tile.row_begin + row) * planes.stride +
+                                        tile.col_begin + std::ptrdiff_t{kTileSize} * tile_col;
         sums.add(tile.depth() + cell, tile.softDepth() + cell, tile.coverage() + cell, planes.depth + in_image,
                  planes.visible_peak + in_image, tolerance_m, tolerance_per_m);
       }

@@ -82,11 +82,12 @@ void forEachTouchedTile(const DepthTile& tile, const Visit& visit) {
 }
 
 /// Sums per lane: even rows of the tiles' eight columns, then odd rows.
-constexpr std::size_t kSumLanes = 2 * kTileSize;
+constexpr std::size_t kSumLanes = 2 * std::size_t{kTileSize};
 using LaneSums = std::array<float, kSumLanes>;
 
 std::size_t sumLane(int row, int col) {
-  return static_cast<std::size_t>(row % 2 * kTileSize + col % kTileSize);
+  const int lane = row % 2 * kTileSize + col % kTileSize;
+  return static_cast<std::size_t>(lane);
 }
 
 double sumOf(const LaneSums& lanes) {
@@ -160,7 +161,7 @@ void addSurfaceTerm(const CoveredCell& cell, const CellTerms& terms, const Vecto
 void addOutlineTerm(const DepthTile& tile, int row, int col, const CoveredCell& cell, const CellTerms& terms,
                     const Vector3f& ray, const Vector3f& from_centre, const TileGeometry& geometry, std::size_t lane,
                     LaneSumsOfEntries& sums) {
-  const float* here = tile.distance() + row * tile.stride + col;
+  const float* here = tile.distance() + tile.rowOffset(row) + col;
   const float* above = row > 0 ? here - tile.stride : here;
   const float* below = row + 1 < tile.rows ? here + tile.stride : here;
   // Sobel operator on the distance, which falls towards the outside.

@@ -16,15 +16,17 @@ HWY_BEFORE_NAMESPACE();
 namespace depth_object_tracker::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::CappedTag<float, 2 * kTileSize>;
+constexpr std::size_t kTwoRows = 2 * std::size_t{kTileSize};  // cells
+
+using D = hn::CappedTag<float, kTwoRows>;
 using DI = hn::RebindToSigned<D>;
 using V = hn::Vec<D>;
 using I = hn::Vec<DI>;
 using M = hn::Mask<D>;
 constexpr std::size_t kLanes = hn::MaxLanes(D());
-constexpr int kRows = kLanes > kTileSize ? 2 : 1;                             // rows of a tile in a vector
-constexpr std::size_t kParts = kRows == 2 ? 1 : kTileSize / kLanes;           // vectors per row of a tile
-constexpr std::size_t kSumVectors = kRows == 2 ? 1 : 2 * kTileSize / kLanes;  // for even and for odd rows
+constexpr int kRows = kLanes > kTileSize ? 2 : 1;                        // rows of a tile in a vector
+constexpr std::size_t kParts = kRows == 2 ? 1 : kTileSize / kLanes;      // vectors per row of a tile
+constexpr std::size_t kSumVectors = kRows == 2 ? 1 : kTwoRows / kLanes;  // for even and for odd rows
 
 /// Even rows first, as the reference has it.
 HWY_INLINE std::size_t sumVector(int row, std::size_t part) {
@@ -38,7 +40,7 @@ HWY_INLINE V set(float value) {
 /// Cells of one row, or of two that lie `stride` apart.
 template <typename T>
 HWY_INLINE auto loadRows(const T* first, const T* second) {
-  const hn::CappedTag<T, 2 * kTileSize> d;
+  const hn::CappedTag<T, kTwoRows> d;
 #if HWY_MAX_BYTES >= 64
   if (kRows == 2) {
     const hn::Half<decltype(d)> half;
@@ -240,8 +242,8 @@ double visitTiles(const DepthTile& tile, const TileLikelihoodInput& input, const
   return sumOfLanes(lanes);
 }
 
-double LogLikelihood(const DepthTile& tile, const TileLikelihoodInput& input, const float* const* beliefs,
-                     float extra_stddev_m) {
+double logLikelihoodOfTile(const DepthTile& tile, const TileLikelihoodInput& input, const float* const* beliefs,
+                           float extra_stddev_m) {
   const bool wide = extra_stddev_m > 0.0f;
   if (input.model.paper_occluder) {
     return wide ? visitTiles<true, false, true>(tile, input, beliefs, nullptr, extra_stddev_m)
@@ -251,7 +253,7 @@ double LogLikelihood(const DepthTile& tile, const TileLikelihoodInput& input, co
               : visitTiles<false, false, false>(tile, input, beliefs, nullptr, 0.0f);
 }
 
-double UpdateBeliefs(const DepthTile& tile, const TileLikelihoodInput& input, float* const* beliefs) {
+double updateBeliefsOfTile(const DepthTile& tile, const TileLikelihoodInput& input, float* const* beliefs) {
   return input.model.paper_occluder ? visitTiles<true, true, false>(tile, input, nullptr, beliefs, 0.0f)
                                     : visitTiles<false, true, false>(tile, input, nullptr, beliefs, 0.0f);
 }
@@ -334,7 +336,7 @@ HWY_INLINE void addOutlineTerm(const DepthTile& tile, int row, int col, const Ce
   // Rows beyond the image count like its last.
   const auto at = [&](int row_offset, int col_offset) HWY_ATTR {
     const auto line = [&](int r) HWY_ATTR {
-      return tile.distance() + std::clamp(r, 0, tile.rows - 1) * tile.stride + col + col_offset;
+      return tile.distance() + tile.rowOffset(std::clamp(r, 0, tile.rows - 1)) + col + col_offset;
     };
     return loadRows(line(row + row_offset), line(row + 1 + row_offset));
   };
@@ -379,7 +381,7 @@ void lineariseRow(const DepthTile& tile, const TileLikelihoodInput& input, int r
                                  hn::Sub(hn::Mul(ray.y, cells.depth), set(geometry.centre[1])),
                                  hn::Sub(cells.depth, set(geometry.centre[2]))};
     const std::size_t vector = sumVector(row, part);
-    const I face = loadRows(tile.face() + row * tile.stride + col, tile.stride);
+    const I face = loadRows(tile.face() + tile.rowOffset(row) + col, tile.stride);
     addSurfaceTerm(cells, terms, ray, from_centre, face, geometry, vector, sums);
     addOutlineTerm(tile, row, col, cells, terms, ray, from_centre, geometry, vector, sums);
   }
@@ -396,7 +398,8 @@ LinearisationSums lineariseTiles(const DepthTile& tile, const TileLikelihoodInpu
       if (block != kAllBlocks && block != index) continue;
       const int first_row = tile_row * kTileSize;
       for (int row = first_row; row < first_row + kTileSize; row += kRows) {
-        const float* row_beliefs = beliefs[index] != nullptr ? beliefs[index] + (row - first_row) * kTileSize : nullptr;
+        const std::ptrdiff_t first_cell = std::ptrdiff_t{kTileSize} * (row - first_row);
+        const float* row_beliefs = beliefs[index] != nullptr ? beliefs[index] + first_cell : nullptr;
         lineariseRow<kPaper, kWiden>(tile, input, row, tile_col * kTileSize, row_beliefs, extra_stddev_m, geometry,
                                      sums);
       }
@@ -407,8 +410,9 @@ LinearisationSums lineariseTiles(const DepthTile& tile, const TileLikelihoodInpu
   return result;
 }
 
-LinearisationSums Linearise(const DepthTile& tile, const TileLikelihoodInput& input, const float* const* beliefs,
-                            float extra_stddev_m, const TileGeometry& geometry, int block) {
+LinearisationSums linearisationOfTile(const DepthTile& tile, const TileLikelihoodInput& input,
+                                      const float* const* beliefs, float extra_stddev_m, const TileGeometry& geometry,
+                                      int block) {
   const bool wide = extra_stddev_m > 0.0f;
   if (input.model.paper_occluder) {
     return wide ? lineariseTiles<true, true>(tile, input, beliefs, extra_stddev_m, geometry, block)
@@ -424,23 +428,23 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace depth_object_tracker {
 
-HWY_EXPORT(LogLikelihood);
-HWY_EXPORT(UpdateBeliefs);
-HWY_EXPORT(Linearise);
+HWY_EXPORT(logLikelihoodOfTile);
+HWY_EXPORT(updateBeliefsOfTile);
+HWY_EXPORT(linearisationOfTile);
 
 double tileLogLikelihoodSimd(const DepthTile& tile, const TileLikelihoodInput& input, const float* const* tile_beliefs,
                              float extra_stddev_m) {
-  return HWY_DYNAMIC_DISPATCH(LogLikelihood)(tile, input, tile_beliefs, extra_stddev_m);
+  return HWY_DYNAMIC_DISPATCH(logLikelihoodOfTile)(tile, input, tile_beliefs, extra_stddev_m);
 }
 
 double updateTileBeliefsSimd(const DepthTile& tile, const TileLikelihoodInput& input, float* const* tile_beliefs) {
-  return HWY_DYNAMIC_DISPATCH(UpdateBeliefs)(tile, input, tile_beliefs);
+  return HWY_DYNAMIC_DISPATCH(updateBeliefsOfTile)(tile, input, tile_beliefs);
 }
 
 LinearisationSums lineariseTileSimd(const DepthTile& tile, const TileLikelihoodInput& input,
                                     const float* const* tile_beliefs, float extra_stddev_m,
                                     const TileGeometry& geometry, int block) {
-  return HWY_DYNAMIC_DISPATCH(Linearise)(tile, input, tile_beliefs, extra_stddev_m, geometry, block);
+  return HWY_DYNAMIC_DISPATCH(linearisationOfTile)(tile, input, tile_beliefs, extra_stddev_m, geometry, block);
 }
 
 }  // namespace depth_object_tracker

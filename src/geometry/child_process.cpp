@@ -109,6 +109,7 @@ ChildOutcome runChild(const std::vector<std::string>& command, int input, double
     return outcome;
   }
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   pid_t child = 0;

@@ -21,6 +21,7 @@ std::vector<Eigen::Vector2d> flatten(const std::vector<Eigen::Vector3d>& corners
   const Eigen::Vector3d u = normal.norm() > 0.0 ? normal.unitOrthogonal() : Eigen::Vector3d::UnitX();
   const Eigen::Vector3d v = normal.norm() > 0.0 ? normal.cross(u) : Eigen::Vector3d::UnitY();
   std::vector<Eigen::Vector2d> flat;
+  flat.reserve(corners.size());
   for (const Eigen::Vector3d& corner : corners)
     flat.emplace_back(u.dot(corner - corners[0]), v.dot(corner - corners[0]));
   return flat;

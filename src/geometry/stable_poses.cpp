@@ -126,6 +126,7 @@ std::vector<StablePose> stablePoses(const TriangleMesh& mesh, const Eigen::Vecto
     sum += hull.share(face);
   }
   std::vector<StablePose> poses;
+  poses.reserve(probabilities.size());
   for (const auto& [face, probability] : probabilities) {
     poses.push_back({-hull.normal(face), hull.height(face), probability / sum});
   }

@@ -62,6 +62,7 @@ std::vector<Eigen::Vector3d> extremeVertices(const std::vector<Eigen::Vector3f>&
   std::sort(extreme.begin(), extreme.end());
   extreme.erase(std::unique(extreme.begin(), extreme.end()), extreme.end());
   std::vector<Eigen::Vector3d> points;
+  points.reserve(extreme.size());
   for (const std::size_t index : extreme) points.push_back(vertices[index].cast<double>());
   return points;
 }

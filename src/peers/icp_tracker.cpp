@@ -66,7 +66,7 @@ class IcpTracker : public PeerTracker {
 
 /// Measured points with normals in the sphere around the last pose.
 Cloud::Ptr IcpTracker::measuredCloud(const DepthImageView& depth, const PinholeCamera& camera) const {
-  const Cloud::Ptr inside(new Cloud);
+  Cloud::Ptr inside(new Cloud);
   const Eigen::Vector3d centre = T_camera_object_ * centre_object_;
   const double radius_m = radius_m_ + config_.crop_margin_m;
   const PixelBox box = boxAround(centre, radius_m, camera);

@@ -80,7 +80,7 @@ void PclTracker::configureFilter() {
 pcl::tracking::ApproxNearestPairPointCloudCoherence<Point>::Ptr PclTracker::makeCoherence() const {
   using pcl::tracking::ApproxNearestPairPointCloudCoherence;
   using pcl::tracking::DistanceCoherence;
-  const ApproxNearestPairPointCloudCoherence<Point>::Ptr coherence(new ApproxNearestPairPointCloudCoherence<Point>);
+  ApproxNearestPairPointCloudCoherence<Point>::Ptr coherence(new ApproxNearestPairPointCloudCoherence<Point>);
   coherence->addPointCoherence(DistanceCoherence<Point>::Ptr(new DistanceCoherence<Point>));
   coherence->setSearchMethod(
       pcl::search::Octree<Point>::Ptr(new pcl::search::Octree<Point>(config_.search_resolution_m)));
@@ -117,7 +117,7 @@ Cloud::Ptr PclTracker::measuredCloud(const DepthImageView& depth, const PinholeC
   pcl::ApproximateVoxelGrid<Point> grid;
   grid.setLeafSize(config_.grid_m, config_.grid_m, config_.grid_m);
   grid.setInputCloud(inside);
-  const Cloud::Ptr thinned(new Cloud);
+  Cloud::Ptr thinned(new Cloud);
   grid.filter(*thinned);
   return thinned;
 }

@@ -33,8 +33,8 @@ void DepthTile::clear(const CellBox& box, const CellBox& image) {
   rows = std::min(tile_rows * kTileSize, image.row_end - row_begin);
   cols = std::min(tile_cols * kTileSize, image.col_end - col_begin);
   stride = tile_cols * kTileSize + 2 * kPad;
-  const auto cells = static_cast<std::size_t>(tile_rows * kTileSize * stride);
-  const auto tiles = static_cast<std::size_t>(tile_rows * tile_cols);
+  const auto cells = static_cast<std::size_t>(rowOffset(tile_rows * kTileSize));
+  const auto tiles = static_cast<std::size_t>(tile_rows) * static_cast<std::size_t>(tile_cols);
   if (depth_.size() < cells + kPad || touched.capacity() < tiles) reserve(4 * (cells + kPad), 4 * tiles);
   std::fill_n(depth_.begin(), cells + kPad, std::numeric_limits<float>::infinity());
   touched.assign(tiles, 0);

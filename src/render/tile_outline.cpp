@@ -22,11 +22,11 @@ double normalCdf(double t) {
 template <typename Combine>
 void combineNeighbours(const float* from, float* to, const DepthTile& tile, const Combine& combine) {
   for (int row = 0; row < tile.rows; ++row) {
-    const float* here = from + row * tile.stride;
+    const float* here = from + tile.rowOffset(row);
     const float* above = row > 0 ? here - tile.stride : here;
     const float* below = row + 1 < tile.rows ? here + tile.stride : here;
     for (int col = 0; col < tile.cols; ++col) {
-      to[row * tile.stride + col] =
+      to[tile.rowOffset(row) + col] =
           combine(here[col], combine(combine(above[col], below[col]), combine(here[col - 1], here[col + 1])));
     }
   }
@@ -58,7 +58,7 @@ OutlineCoverage::OutlineCoverage(double stddev) : edge_stddev_px(static_cast<flo
 
 void padRows(float* plane, const DepthTile& tile) {
   for (int row = 0; row < tile.rows; ++row) {
-    float* cells = plane + row * tile.stride;
+    float* cells = plane + tile.rowOffset(row);
     cells[-1] = cells[0];
     cells[tile.cols] = cells[tile.cols - 1];
   }
@@ -66,7 +66,7 @@ void padRows(float* plane, const DepthTile& tile) {
 
 void clearRowsBeyondImage(DepthTile& tile) {
   for (int row = tile.rows; row < tile.tile_rows * kTileSize; ++row) {
-    std::fill_n(tile.coverage() + row * tile.stride, tile.tile_cols * kTileSize, 0.0f);
+    std::fill_n(tile.coverage() + tile.rowOffset(row), tile.tile_cols * kTileSize, 0.0f);
   }
 }
 
@@ -81,7 +81,7 @@ void softenOutlineScalar(const OutlineCoverage& outline, bool with_distance, Dep
   combineNeighbours(tile.eroded(), eroded_twice, tile, farthest);
   for (int row = 0; row < tile.rows; ++row) {
     for (int col = 0; col < tile.cols; ++col) {
-      const int i = row * tile.stride + col;
+      const std::ptrdiff_t i = tile.rowOffset(row) + col;
       const bool covered = tile.depth()[i] < kEmpty;
       const bool inner = tile.eroded()[i] < kEmpty, innermost = eroded_twice[i] < kEmpty;
       const bool beside = tile.dilated()[i] < kEmpty, near = dilated_twice[i] < kEmpty;
@@ -101,10 +101,12 @@ void softenOutlineScalar(const OutlineCoverage& outline, bool with_distance, Dep
       tile.softDepth()[i] = covered ? tile.depth()[i] : beside ? tile.dilated()[i] : dilated_twice[i];
       tile.distance()[i] = distance;
       if (coverage > 0.0f) {
-        tile.touched[static_cast<std::size_t>(row / kTileSize * tile.tile_cols + col / kTileSize)] = 1;
+        const int index = row / kTileSize * tile.tile_cols + col / kTileSize;
+        tile.touched[static_cast<std::size_t>(index)] = 1;
       }
     }
-    for (int col = tile.cols; col < tile.tile_cols * kTileSize; ++col) tile.coverage()[row * tile.stride + col] = 0.0f;
+    for (int col = tile.cols; col < tile.tile_cols * kTileSize; ++col)
+      tile.coverage()[tile.rowOffset(row) + col] = 0.0f;
   }
   clearRowsBeyondImage(tile);
   if (with_distance) padRows(tile.distance(), tile);

@@ -20,7 +20,7 @@ constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
 
 struct RowPointers {
   HWY_INLINE RowPointers(const float* plane, int row, const DepthTile& tile)
-      : here(plane + row * tile.stride),
+      : here(plane + tile.rowOffset(row)),
         above(row > 0 ? here - tile.stride : here),
         below(row + 1 < tile.rows ? here + tile.stride : here) {}
   const float *here, *above, *below;
@@ -91,7 +91,7 @@ HWY_INLINE void writeTiles(const OutlineCoverage& outline, DepthTile& tile, cons
 
 void writeHard(const OutlineCoverage& outline, DepthTile& tile) {
   writeTiles<false>(outline, tile, [&](int row, int col) HWY_ATTR {
-    const V here = hn::LoadU(D(), tile.depth() + row * tile.stride + col);
+    const V here = hn::LoadU(D(), tile.depth() + tile.rowOffset(row) + col);
     const V nothing = hn::Set(D(), std::numeric_limits<float>::infinity());
     return Rings{here, nothing, here, nothing, here};
   });
@@ -113,8 +113,8 @@ void writeTwoRings(const OutlineCoverage& outline, DepthTile& tile) {
     const RowPointers rows(tile.depth(), row, tile);
     for (int col = 0; col < tile.tile_cols * kTileSize; col += kLanes) {
       const Neighbours cells(rows, col);
-      hn::StoreU(cells.least(), D(), tile.dilated() + row * tile.stride + col);
-      hn::StoreU(cells.largest(), D(), tile.eroded() + row * tile.stride + col);
+      hn::StoreU(cells.least(), D(), tile.dilated() + tile.rowOffset(row) + col);
+      hn::StoreU(cells.largest(), D(), tile.eroded() + tile.rowOffset(row) + col);
     }
   }
   padRows(tile.dilated(), tile);
@@ -122,13 +122,13 @@ void writeTwoRings(const OutlineCoverage& outline, DepthTile& tile) {
   writeTiles<kWithDistance>(outline, tile, [&](int row, int col) HWY_ATTR {
     const Neighbours outer(RowPointers(tile.dilated(), row, tile), col);
     const Neighbours inner(RowPointers(tile.eroded(), row, tile), col);
-    return Rings{hn::LoadU(D(), tile.depth() + row * tile.stride + col), outer.here, inner.here, outer.least(),
+    return Rings{hn::LoadU(D(), tile.depth() + tile.rowOffset(row) + col), outer.here, inner.here, outer.least(),
                  inner.largest()};
   });
   if (kWithDistance) padRows(tile.distance(), tile);
 }
 
-void Soften(const OutlineCoverage& outline, bool with_distance, DepthTile& tile) {
+void softenTile(const OutlineCoverage& outline, bool with_distance, DepthTile& tile) {
   clearRowsBeyondImage(tile);
   if (with_distance) return writeTwoRings<true>(outline, tile);
   if (outline.reach == 2) return writeTwoRings<false>(outline, tile);
@@ -142,10 +142,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace depth_object_tracker {
 
-HWY_EXPORT(Soften);
+HWY_EXPORT(softenTile);
 
 void softenOutlineSimd(const OutlineCoverage& outline, bool with_distance, DepthTile& tile) {
-  HWY_DYNAMIC_DISPATCH(Soften)(outline, with_distance, tile);
+  HWY_DYNAMIC_DISPATCH(softenTile)(outline, with_distance, tile);
 }
 
 }  // namespace depth_object_tracker

@@ -49,8 +49,8 @@ void rasterizeScalar(const FaceSet& faces, const RasterTransform& transform, Dep
     for (int row = face.first_row; row <= face.last_row; ++row) {
       int first, last;
       face.span(row, first, last);
-      float* depth = tile.depth() + row * tile.stride;
-      std::int32_t* id = tile.face() + row * tile.stride;
+      float* depth = tile.depth() + tile.rowOffset(row);
+      std::int32_t* id = tile.face() + tile.rowOffset(row);
       for (int col = first; col <= last; ++col) {
         const float value = face.depth(row, col);
         if (!(value < depth[col])) continue;

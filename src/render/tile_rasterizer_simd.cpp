@@ -260,8 +260,8 @@ HWY_INLINE void fillSpan(const RasterFace& face, std::int32_t id, int row, int f
   const hn::CappedTag<float, 8> d;
   const hn::RebindToSigned<decltype(d)> di;
   const int lanes = static_cast<int>(hn::MaxLanes(d));
-  float* depth = tile.depth() + row * tile.stride;
-  std::int32_t* ids = tile.face() + row * tile.stride;
+  float* depth = tile.depth() + tile.rowOffset(row);
+  std::int32_t* ids = tile.face() + tile.rowOffset(row);
   const auto row_part = hn::Set(d, face.at_origin + static_cast<float>(row) * face.by_row);
   const auto by_col = hn::Set(d, face.by_col), numerator = hn::Set(d, face.numerator);
   const auto least = hn::Set(d, face.least_depth), largest = hn::Set(d, face.largest_depth);
@@ -294,8 +294,8 @@ void fillLarge(const FaceSet& faces, const RasterTransform& transform, DepthTile
   }
 }
 
-void Rasterize(const FaceSet& faces, const RasterTransform& transform, bool with_faces, DepthTile& tile,
-               RasterScratch& scratch) {
+void rasterizeFaces(const FaceSet& faces, const RasterTransform& transform, bool with_faces, DepthTile& tile,
+                    RasterScratch& scratch) {
   scratch.reserve(faces.padded);
   selectFaces(faces, transform, tile, scratch);
   if (with_faces) {
@@ -313,11 +313,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace depth_object_tracker {
 
-HWY_EXPORT(Rasterize);
+HWY_EXPORT(rasterizeFaces);
 
 void rasterizeSimd(const FaceSet& faces, const RasterTransform& transform, bool with_faces, DepthTile& tile,
                    RasterScratch& scratch) {
-  HWY_DYNAMIC_DISPATCH(Rasterize)(faces, transform, with_faces, tile, scratch);
+  HWY_DYNAMIC_DISPATCH(rasterizeFaces)(faces, transform, with_faces, tile, scratch);
 }
 
 }  // namespace depth_object_tracker

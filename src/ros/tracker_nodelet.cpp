@@ -203,7 +203,7 @@ void TrackerNodelet::applyInitFile(const std::string& init_file, TrackerSession&
 std::string TrackerNodelet::findInfoTopic(const std::string& image_topic) {
   ros::NodeHandle& node = getNodeHandle();
   const std::string by_name = siblingName(getName(), "depth/camera_info");
-  const std::string remapped = node.resolveName(by_name);
+  std::string remapped = node.resolveName(by_name);
   if (remapped != by_name) return remapped;
   return node.resolveName(image_transport::getCameraInfoTopic(image_topic));
 }

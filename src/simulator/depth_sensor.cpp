@@ -112,7 +112,8 @@ void DepthSensor::jitterEdges(const std::vector<float>& true_depth_m, int tile_r
   const auto step = static_cast<float>(config_.edge_step_m);
   seen_depth_m_ = true_depth_m;
   for (int row = kJitterBorder; row < camera_.height - kJitterBorder; ++row) {
-    const std::int32_t* jitter = &jitter_tile_[((row + tile_row) & (kTileSize - 1)) * kTileSize];
+    const std::int32_t* jitter =
+        &jitter_tile_[static_cast<std::size_t>((row + tile_row) & (kTileSize - 1)) * kTileSize];
     const std::size_t base = static_cast<std::size_t>(row) * camera_.width;
     for (int col = kJitterBorder; col < camera_.width - kJitterBorder; ++col) {
       const float here = true_depth_m[base + col];
@@ -124,7 +125,7 @@ void DepthSensor::jitterEdges(const std::vector<float>& true_depth_m, int tile_r
 }
 
 void DepthSensor::readRow(int row, int tile_row, int tile_col, float sign, std::uint16_t* depth_mm) const {
-  const float* noise = &noise_tile_[((row + tile_row) & (kTileSize - 1)) * kTileSize];
+  const float* noise = &noise_tile_[static_cast<std::size_t>((row + tile_row) & (kTileSize - 1)) * kTileSize];
   const float* seen = &seen_depth_m_[static_cast<std::size_t>(row) * camera_.width];
   const DepthReader reader(config_, camera_);
   // Two runs, so that the tile's end needs no test per pixel.

@@ -7,8 +7,10 @@
 
 #include <iostream>
 
-int main(int argc, char** argv) {
-  using namespace depth_object_tracker;
+namespace depth_object_tracker {
+namespace {
+
+int run(int argc, char** argv) {
   CLI::App app("Chooses flat places for AprilTags (tag36h11) on an object and writes them as a fiducial file.");
   std::string mesh, output;
   TagPlacementConfig config;
@@ -27,13 +29,20 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
+  const FiducialMap map = placeTags(loadMesh(mesh), config);
+  saveFiducialMap(map, output);
+  std::cout << output << ": " << map.tags.size() << " tags\n";
+  return 0;
+}
+
+}  // namespace
+}  // namespace depth_object_tracker
+
+int main(int argc, char** argv) {
   try {
-    const FiducialMap map = placeTags(loadMesh(mesh), config);
-    saveFiducialMap(map, output);
-    std::cout << output << ": " << map.tags.size() << " tags\n";
+    return depth_object_tracker::run(argc, argv);
   } catch (const std::exception& error) {
     std::cerr << "error: " << error.what() << '\n';
     return 1;
   }
-  return 0;
 }

@@ -153,7 +153,7 @@ std::optional<Eigen::VectorXd> RobotArm::Implementation::findStart(RandomSource&
   for (int attempt = 0; attempt < kStartAttempts; ++attempt) {
     Eigen::VectorXd start = neutral();
     for (Eigen::Index k = 0; k < start.size(); ++k) start[k] += random.uniform(-1.0, 1.0) * (attempt > 0 ? 1.2 : 0.1);
-    const auto solved = solver_.solve(wantedHand(0.0), start);
+    auto solved = solver_.solve(wantedHand(0.0), start);
     if (solved && isWithinLimits(*solved)) return solved;
   }
   return std::nullopt;

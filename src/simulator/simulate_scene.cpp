@@ -80,7 +80,7 @@ void addOptions(CLI::App& app, Options& options) {
       ->capture_default_str();
 }
 
-void run(const Options& options) {
+void simulate(const Options& options) {
   const dot::ObjectModel object = loadObject(options.object);
   dot::SimulationConfig config;
   config.scenario = dot::scenarioFromName(options.scenario);
@@ -116,9 +116,7 @@ void run(const Options& options) {
             << 1000.0 * render_s / options.frames << " ms a frame, " << total_s << " s in all\n";
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app("Simulates a depth camera before which one object is moved, and writes a BOP scene folder.");
   Options options;
   addOptions(app, options);
@@ -127,11 +125,17 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
+  simulate(options);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    run(options);
+    return run(argc, argv);
   } catch (const std::exception& error) {
     std::cerr << "error: " << error.what() << '\n';
     return 1;
   }
-  return 0;
 }

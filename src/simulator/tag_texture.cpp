@@ -61,8 +61,8 @@ void TagTexture::paintCard(const Card& card, const Pose& T_view_object, const Pi
       float sum = 0.0f;
       int covered = 0;
       for (int sample = 0; sample < kSamples * kSamples; ++sample) {
-        const double u = col + (sample % kSamples + 0.5) / kSamples - 0.5,
-                     v = row + (sample / kSamples + 0.5) / kSamples - 0.5;
+        const int sample_row = sample / kSamples, sample_col = sample % kSamples;
+        const double u = col + (sample_col + 0.5) / kSamples - 0.5, v = row + (sample_row + 0.5) / kSamples - 0.5;
         const Eigen::Vector3d ray = camera.ray(u, v);
         const double depth = normal.dot(origin) / normal.dot(ray);
         if (!(depth > 0.0 && depth < static_cast<double>(depth_m[index]) + kLiftM)) continue;
@@ -70,7 +70,8 @@ void TagTexture::paintCard(const Card& card, const Pose& T_view_object, const Pi
         const int x = static_cast<int>(std::floor(p_tag.x() * modules_per_m + middle));
         const int y = static_cast<int>(std::floor(p_tag.y() * modules_per_m + middle));
         if (x < 0 || y < 0 || x >= card.picture.width || y >= card.picture.width) continue;
-        sum += card.picture.modules[static_cast<std::size_t>(y * card.picture.width + x)] > 127 ? kPaper : kInk;
+        const int module = y * card.picture.width + x;
+        sum += card.picture.modules[static_cast<std::size_t>(module)] > 127 ? kPaper : kInk;
         ++covered;
       }
       const float share = static_cast<float>(covered) / (kSamples * kSamples);

@@ -153,7 +153,7 @@ nlohmann::json summarise(const nlohmann::json& trials) {
           {"processor_s_90", quantile(seconds, 0.9)}};
 }
 
-void run(const Options& options) {
+void runTrials(const Options& options) {
   nlohmann::json report;
   std::printf("%-22s %-9s %6s %8s %8s %7s %6s %7s %7s %7s %7s\n", "object", "mode", "trials", "success", "in 4 s",
               "wrong", "plane", "frames", "90 %", "proc s", "90 %");
@@ -175,9 +175,7 @@ void run(const Options& options) {
   if (!options.json.empty()) std::ofstream(options.json) << report.dump(1) << '\n';
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app("Starts the tracker again and again on simulated frames and counts how often it finds the object.");
   Options options;
   app.add_option("objects", options.objects, "object YAMLs, or meshes in metres")->required();
@@ -197,11 +195,17 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
+  runTrials(options);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    run(options);
+    return run(argc, argv);
   } catch (const std::exception& error) {
     std::cerr << "error: " << error.what() << '\n';
     return 1;
   }
-  return 0;
 }

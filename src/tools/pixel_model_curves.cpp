@@ -6,8 +6,10 @@
 
 #include <iostream>
 
-int main(int argc, char** argv) {
-  using namespace depth_object_tracker;
+namespace depth_object_tracker {
+namespace {
+
+int run(int argc, char** argv) {
   CLI::App app(
       "Prints p(z | visible), p(z | occluded) and p(z | no object) over the measured depth z as CSV, with the paper's "
       "noise.");
@@ -31,4 +33,16 @@ int main(int argc, char** argv) {
               << occludedDensity(z, depth_m, consistent) << ',' << missDensity(z, paper) << '\n';
   }
   return 0;
+}
+
+}  // namespace
+}  // namespace depth_object_tracker
+
+int main(int argc, char** argv) {
+  try {
+    return depth_object_tracker::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "error: " << error.what() << '\n';
+    return 1;
+  }
 }

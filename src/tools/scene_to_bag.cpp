@@ -49,11 +49,8 @@ void convert(const SceneToBagOptions& options) {
   std::printf("%zu frames written to %s\n", scene.frames.size(), options.bag.c_str());
 }
 
-}  // namespace
-}  // namespace depth_object_tracker
-
-int main(int argc, char** argv) {
-  depth_object_tracker::SceneToBagOptions options;
+int run(int argc, char** argv) {
+  SceneToBagOptions options;
   CLI::App app(
       "Converts a BOP scene folder to a rosbag: depth, camera_info, grasp, control twist and ground truth.\n"
       "Scenes whose stamps count from 0 start at 1000000000 s.",
@@ -68,11 +65,18 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
+  convert(options);
+  return 0;
+}
+
+}  // namespace
+}  // namespace depth_object_tracker
+
+int main(int argc, char** argv) {
   try {
-    depth_object_tracker::convert(options);
+    return depth_object_tracker::run(argc, argv);
   } catch (const std::exception& error) {
-    std::cerr << "error: " << error.what() << std::endl;
+    std::cerr << "error: " << error.what() << '\n';
     return 1;
   }
-  return 0;
 }

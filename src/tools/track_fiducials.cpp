@@ -110,9 +110,7 @@ void track(const Options& options) {
   std::cout << options.output << ": tags seen in " << seen << " of " << done << " frames\n";
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app(
       "Tracks an object by the AprilTags on it: stereo triangulation, least squares, an extended Kalman filter.");
   Options options;
@@ -122,11 +120,17 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
+  track(options);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    track(options);
+    return run(argc, argv);
   } catch (const std::exception& error) {
     std::cerr << "error: " << error.what() << '\n';
     return 1;
   }
-  return 0;
 }

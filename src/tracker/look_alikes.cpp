@@ -189,7 +189,7 @@ std::optional<Pose> LookAlikeCheck::findBetter(DepthLikelihood& likelihood, cons
                                                double exponent, const TurnPrior& prior, double dt_s) {
   if (look_alikes_.far.empty()) return std::nullopt;
   illusions_.age(dt_s);
-  if (const std::optional<Pose> nearby = findNearby(likelihood, T_camera_centre, exponent)) return nearby;
+  if (std::optional<Pose> nearby = findNearby(likelihood, T_camera_centre, exponent)) return nearby;
   if (prior.was_followed) pending_.reset();
   rankCandidates(likelihood, T_camera_centre);
   const double now = likelihood.logLikelihood(T_camera_centre, 0);

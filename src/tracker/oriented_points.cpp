@@ -149,7 +149,8 @@ std::vector<OrientedPoint> objectPoints(const TriangleMesh& mesh, const Eigen::V
     T_camera_object.translation() = Eigen::Vector3d(0.0, 0.0, distance) - R * centre_object;
     std::fill(image.begin(), image.end(), 0.0f);
     for (const CoveredPixel& pixel : renderer.render(T_camera_object, camera)) {
-      image[static_cast<std::size_t>(pixel.row * image_size + pixel.col)] = pixel.depth;
+      const int cell = pixel.row * image_size + pixel.col;
+      image[static_cast<std::size_t>(cell)] = pixel.depth;
     }
     for (int row = kStep / 2; row < image_size; row += kStep) {
       for (int col = kStep / 2; col < image_size; col += kStep) {

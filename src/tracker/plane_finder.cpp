@@ -105,7 +105,8 @@ std::optional<ImagePlane> findLargest(const PointGrid& grid, const RandomSource&
   std::size_t most = 0;
   ImagePlane best;
   for (int k = 0; k < kTries; ++k) {
-    const auto plane = drawPlane(grid, random, static_cast<std::uint64_t>(round * kTries + k));
+    const int draw = round * kTries + k;
+    const auto plane = drawPlane(grid, random, static_cast<std::uint64_t>(draw));
     if (!plane) continue;
     const std::size_t count = pointsOn(grid, *plane, kCountEvery).size();
     if (count > most) {

@@ -206,7 +206,7 @@ std::optional<Pose> PoseFinder::drawPair(std::uint64_t number) const {
     const auto at = [&](std::uint32_t index) { return uniform(1 + 7 * k + index); };
     const OrientedPoint* second = neighbourOf(pixel, reach_px * at(1), 2.0 * M_PI * at(0));
     if (second == nullptr) continue;
-    const auto pose = pairs_.layOn(first, *second, {at(2), at(3), at(4), at(5)}, at(6));
+    auto pose = pairs_.layOn(first, *second, {at(2), at(3), at(4), at(5)}, at(6));
     if (pose) return pose;
   }
   return std::nullopt;
@@ -259,7 +259,8 @@ void PoseFinder::letNeighboursVote(std::uint64_t number, PairVotes& votes) const
   const int row = static_cast<int>(pixel.y()), col = static_cast<int>(pixel.x());
   for (int r = std::max(0, row - reach); r <= std::min(rows - 1, row + reach); r += stride) {
     for (int c = std::max(0, col - reach); c <= std::min(cols - 1, col + reach); c += stride) {
-      const int other = point_at_[static_cast<std::size_t>(r * cols + c)];
+      const int cell = r * cols + c;
+      const int other = point_at_[static_cast<std::size_t>(cell)];
       if (other < 0) continue;
       constexpr std::uint32_t kNumbers = 5;
       const auto at = [&](std::uint32_t index) {

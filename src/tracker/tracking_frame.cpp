@@ -177,7 +177,7 @@ ProcessStep ObjectTracker::Implementation::makeStep(double dt_s, const std::opti
   hypotheses.always.clear();
   hypotheses.if_poor.clear();
   if (initial_variances) {
-    const ProcessStep step(config.process, *initial_variances);
+    ProcessStep step(config.process, *initial_variances);
     if (mayReacquire()) search.around(filter.poses().front(), *initial_variances, kHypotheses, hypotheses.always);
     hypotheses.always.insert(hypotheses.always.end(), around_given.begin(), around_given.end());
     around_given.clear();

@@ -23,11 +23,11 @@ class SoakEvents {
 
   /// @param lost the tracker searches. @return false when a service did not answer.
   bool happen(bool lost) {
-    if (oneIn(200)) scene_.hideFor(count(5, 60), 1.0);
-    if (oneIn(300)) scene_.hideFor(count(20, 100), 0.3 + 0.01 * count(0, 40));
-    if (oneIn(900)) scene_.vanishFor(count(30, 90));
-    if (oneIn(300)) client_.setGrasp(grasped_ = !grasped_);
-    if (oneIn(1500)) client_.jumpBack(5.0);
+    if (oneIn(200)) note(5), scene_.hideFor(count(5, 60), 1.0);
+    if (oneIn(300)) note(5), scene_.hideFor(count(20, 100), 0.3 + 0.01 * count(0, 40));
+    if (oneIn(900)) note(6), scene_.vanishFor(count(30, 90));
+    if (oneIn(300)) note(7), client_.setGrasp(grasped_ = !grasped_);
+    if (oneIn(1500)) note(8), client_.jumpBack(5.0);
     bool answered = true;
     // Somebody who watches helps.
     lost_frames_ = lost ? lost_frames_ + 1 : 0;
@@ -46,6 +46,8 @@ class SoakEvents {
   void print() const {
     std::printf("initialised %d, searched %d, loaded %d, reset %d, paused %d times\n", counts_[0], counts_[1],
                 counts_[2], counts_[3], counts_[4]);
+    std::printf("hidden %d, taken away %d, grasped or let go %d, time set back %d times\n", counts_[5], counts_[6],
+                counts_[7], counts_[8]);
   }
 
  private:
@@ -53,7 +55,7 @@ class SoakEvents {
 
   bool oneIn(unsigned frames) { return random_() % (rarity_ * frames) == 0; }
   int count(int low, int high) { return low + static_cast<int>(random_() % static_cast<unsigned>(high - low + 1)); }
-  bool note(std::size_t kind, bool answered) {
+  bool note(std::size_t kind, bool answered = true) {
     ++counts_[kind];
     return answered;
   }
@@ -69,7 +71,7 @@ class SoakEvents {
   std::mt19937_64 random_;
   bool grasped_ = false;
   int lost_frames_ = 0;
-  std::array<int, 5> counts_{};
+  std::array<int, 9> counts_{};
 };
 
 float share(const std::vector<float>& sorted, double part) {

@@ -40,6 +40,9 @@ class DepthTile {
   int tile_rows = 0, tile_cols = 0;  ///< tiles of kTileSize x kTileSize cells
   int stride = 0;                    ///< cells from row to row
 
+  /// Elements from a plane's beginning to the row's first cell. @param row counted from row_begin.
+  std::ptrdiff_t rowOffset(int row) const { return static_cast<std::ptrdiff_t>(row) * stride; }
+
   float* depth() { return plane(depth_); }  ///< [m], infinity where nothing was drawn
   const float* depth() const { return plane(depth_); }
   std::int32_t* face() { return face_.data() + kPad; }  ///< id of the face drawn, where depth is finite

@@ -24,7 +24,7 @@ class FreeTurn {
     double dt_s = 0.0;
   };
 
-  explicit FreeTurn(std::vector<ScrewAxis> axes);
+  explicit FreeTurn(const std::vector<ScrewAxis>& axes);
 
   /// @param stddev_rad of the angle, from now on; infinite = nothing is known of it.
   void restart(double stddev_rad);
