@@ -62,8 +62,20 @@ const std::vector<float>& HeldView::foreignReadings(const DepthImageView& depth,
   const std::vector<CoveredPixel>& covered = renderer_.render(T_camera_object, grid.camera);
   if (!hidesMuch(covered, depth, grid, reach_m)) {
     foreign_.clear();
-    return foreign_;
+  } else {
+    keepNearer(covered, depth, grid, reach_m);
   }
+  return foreign_;
+}
+
+const std::vector<float>& HeldView::nearerReadings(const DepthImageView& depth, const SamplingGrid& grid,
+                                                   const Pose& T_camera_object, double reach_m) {
+  keepNearer(renderer_.render(T_camera_object, grid.camera), depth, grid, reach_m);
+  return foreign_;
+}
+
+void HeldView::keepNearer(const std::vector<CoveredPixel>& covered, const DepthImageView& depth,
+                          const SamplingGrid& grid, double reach_m) {
   expect(covered, grid.camera);
   foreign_.assign(expected_.size(), 0.0f);
   for (int row = 0; row < grid.camera.height; ++row) {
@@ -74,7 +86,6 @@ const std::vector<float>& HeldView::foreignReadings(const DepthImageView& depth,
       if (z < expected_[i] - static_cast<float>(reach_m)) foreign_[i] = z;
     }
   }
-  return foreign_;
 }
 
 bool HeldView::isHidden(const DepthImageView& depth, const SamplingGrid& grid, const Pose& T_camera_object,

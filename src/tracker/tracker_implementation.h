@@ -107,6 +107,10 @@ class ObjectTracker::Implementation {
   /// @return true while nothing or little was ever seen of an object in a robot's hand.
   bool waitForTheHandToShowIt(const DepthImageView& depth, const SamplingGrid& grid, double dt_s,
                               const std::optional<ControlInput>& control);
+  /// What is in view beside the hand, while nothing is known to be seen of the object: is it there, where the hand has
+  /// it? nullopt when it is not, and nothing has changed.
+  std::optional<FilterEstimate> lookPastTheHand(const DepthImageView& depth, const SamplingGrid& grid, double dt_s,
+                                                const std::optional<ControlInput>& control);
   double projectedPixels(const PinholeCamera& camera) const;
   double diffusionScale() const;
   /// The covariance as the image bears it out.

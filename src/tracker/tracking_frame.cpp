@@ -51,12 +51,13 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
   }
   setAsideWhatIsNotHeld(depth, grid, time.dt_s, control);
 
+  const std::optional<FilterEstimate> past_hand = lookPastTheHand(depth, grid, time.dt_s, control);
   if (is_blind && reacquire(depth, time.dt_s)) is_blind = false;
   const bool was_given = is_given && initial_variances && mayReacquire();
   const Vector6d given_variances = initial_variances.value_or(Vector6d::Zero());
   const Pose given = filter.poses().front();
   is_given = false;
-  FilterEstimate estimate = is_blind ? hold(time.dt_s, control) : look(time.dt_s, control);
+  FilterEstimate estimate = past_hand ? *past_hand : is_blind ? hold(time.dt_s, control) : look(time.dt_s, control);
   PoseAssessment assessment = assess(estimate);
   if (was_given && !fits(assessment)) {
     // Perhaps it is farther from the truth than its variances say.

@@ -8,6 +8,14 @@ namespace {
 
 // Of an object in a robot's hand: error of the mesh and the sensor, and how fast it may slip.
 constexpr double kHeldReachM = 0.004, kHeldSpeedM_s = 0.1;
+// Where a hand has an object that was not seen yet is worth knowing up to here; then it is searched as any other.
+constexpr double kMostHiddenStddevM = 0.05, kMostHiddenStddevRad = 0.5;
+// Of what is found beside the hand. A hand goes on beside the outline, however well it fits; and where no outline is
+// seen before something behind it, what little is seen may slide along.
+constexpr double kLeastVisibleShare = 0.1, kLeastScore = 0.85, kMostThrough = 0.02;
+constexpr double kMostContinued = 0.08, kLeastBeyond = 0.1;
+constexpr int kLeastVisibleCells = 40;
+constexpr double kMostReachM = 0.015;  // what is nearer than that is the hand's
 
 }  // namespace
 
@@ -52,7 +60,13 @@ bool ObjectTracker::Implementation::waitForTheHandToShowIt(const DepthImageView&
     hidden_start.reset();
     return false;
   }
-  const double reach_m = kHeldReachM + std::sqrt(hidden_start->variances.head<3>().maxCoeff());
+  const double stddev_m = std::sqrt(hidden_start->variances.head<3>().maxCoeff());
+  const double stddev_rad = std::sqrt(hidden_start->variances.tail<3>().maxCoeff());
+  if (!is_first && (stddev_m > kMostHiddenStddevM || stddev_rad > kMostHiddenStddevRad)) {
+    hidden_start.reset();
+    return true;
+  }
+  const double reach_m = kHeldReachM + stddev_m;
   const bool is_hidden = held_view.isHidden(depth, grid, toObject(hidden_start->T_camera_centre), reach_m);
   if (is_first && !is_hidden) {
     hidden_start.reset();
@@ -70,6 +84,35 @@ bool ObjectTracker::Implementation::waitForTheHandToShowIt(const DepthImageView&
     hidden_start.reset();
   }
   return is_hidden;
+}
+
+std::optional<FilterEstimate> ObjectTracker::Implementation::lookPastTheHand(
+    const DepthImageView& depth, const SamplingGrid& grid, double dt_s, const std::optional<ControlInput>& control) {
+  const bool is_followed = follows_hand && control && control->isFollowed();
+  if (!is_blind || is_anywhere || !mayReacquire() || !(hidden_start || is_followed)) return std::nullopt;
+  const ProcessStep step(config.process, hidden_start ? 0.0 : dt_s, control, centre_object, 1.0);
+  const Pose& before = hidden_start ? hidden_start->T_camera_centre : last_mean.mean;
+  const Pose carried = perturb(before, step.controlDisplacement(before));
+  const Vector6d variances = hidden_start ? hidden_start->variances : Vector6d(last_mean.covariance.diagonal());
+  const double reach_m = std::min(kMostReachM, kHeldReachM + std::sqrt(variances.head<3>().maxCoeff()));
+  likelihood.setTakenSurfaces(held_view.nearerReadings(depth, grid, toObject(carried), reach_m));
+  if (hidden_start) initial_variances = hidden_start->variances;
+  const FilterEstimate estimate = look(dt_s, control);
+  const PoseAssessment assessment = assess(estimate);
+  const bool is_there = assessment.visibleShare() > kLeastVisibleShare &&
+                        assessment.visible_pixels > kLeastVisibleCells &&
+                        assessment.achieved > kLeastScore * assessment.expected &&
+                        assessment.through_pixels <= kMostThrough * assessment.measured_pixels &&
+                        assessment.beyond_pixels >= kLeastBeyond * assessment.surrounding_pixels &&
+                        assessment.continued_pixels <= kMostContinued * assessment.surrounding_pixels;
+  if (is_there) {
+    hidden_start.reset();
+    is_blind = false;
+    return estimate;
+  }
+  filter.undo();
+  if (hidden_start) likelihood.resetOcclusion();
+  return std::nullopt;
 }
 
 void ObjectTracker::Implementation::followHand(const ProcessStep& step, bool follows, double dt_s) {

@@ -195,6 +195,41 @@ TEST_P(HiddenFromTheStart, FollowsTheHandUntilItIsSeen) {
 
 INSTANTIATE_TEST_SUITE_P(Objects, HiddenFromTheStart, testing::ValuesIn(allObjectsFromBothSides()), nameOf);
 
+/// The fifth that is beside the gripper from the first image on is enough where it stands out before the wall.
+TEST(PartlyHiddenFromTheStart, IsFoundBesideTheGripper) {
+  for (const char* object : {"bottle", "box", "drill", "mug"}) {
+    EXPECT_LT(revealLater({object, Side::kLeft}, kHiddenShare).while_hidden_m, kLargestErrorM) << object;
+  }
+}
+
+/// The robot says nothing any more, and what it said is worth less and less: the wait for the hand to open ends.
+TEST(HiddenInASilentRobotsHand, IsSearchedOnceTheHandIsNoLongerKnown) {
+  constexpr int kFollowed = 10, kHidden = 100, kRevealed = 45;
+  ScriptedScene scene("box", 9);
+  Gripper gripper(scene);
+  ObjectTracker tracker(scene.object(), TrackerConfig());
+  tracker.initialise(movedBy(heldAt(0.0), 0.008, -0.006, 0.008, {0.04, -0.05, 0.03}));
+  RandomSource random(10);
+  TrackerResult result;
+  int waited = 0;
+  double error_m = 0.0;
+  for (int k = 0; k < kHidden + kRevealed; ++k) {
+    const Pose truth = heldAt(std::min(k, kFollowed) * kFrameS);
+    std::optional<Board> board;
+    if (k < kHidden) board = gripper.at(truth, Side::kLeft, 1.0);
+    std::optional<ControlInput> control;
+    if (k < kFollowed) control = reported(heldAt(std::max(0, k - 1) * kFrameS), truth, random);
+    const auto& image = scene.render(truth, board);
+    result = tracker.update(scene.view(image), scene.camera(), 10.0 + k * kFrameS, control);
+    waited += result.reason.find("following the hand") != std::string::npos ? 1 : 0;
+    error_m = scene.error(result.T_camera_object, truth);
+  }
+  EXPECT_GE(waited, kFollowed);
+  EXPECT_LT(waited, kHidden);
+  EXPECT_EQ(result.state, TrackerState::kTracking);
+  EXPECT_LT(error_m, 0.002);
+}
+
 TEST(HeldWithoutControl, IsWorse) {
   const Case box{"box", Side::kRight};
   EXPECT_GT(track(box, false).median_m, track(box, true).median_m);

@@ -49,7 +49,7 @@ const std::vector<std::uint16_t>& ScriptedScene::render(const std::optional<Pose
       see(pixel.row, pixel.col, pixel.depth);
   }
   if (board) {
-    for (int row = 0; row < camera_.height; ++row) {
+    for (int row = std::max(0, board->begin_row); row < std::min(camera_.height, board->end_row); ++row) {
       for (int col = std::max(0, board->begin); col < std::min(camera_.width, board->end); ++col) {
         see(row, col, static_cast<float>(board->depth_m));
       }

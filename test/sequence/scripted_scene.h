@@ -10,16 +10,18 @@
 #include "depth_object_tracker/tracker/object_tracker.h"
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace depth_object_tracker {
 
-/// A board parallel to the image that covers the columns [begin, end) at a depth.
+/// A board parallel to the image that covers the columns [begin, end) at a depth, of the rows [begin_row, end_row).
 struct Board {
   int begin = 0, end = 0;
   double depth_m = 0.5;
+  int begin_row = 0, end_row = std::numeric_limits<int>::max();
 };
 
 class ScriptedScene {

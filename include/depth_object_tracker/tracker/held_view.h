@@ -27,6 +27,10 @@ class HeldView {
   const std::vector<float>& foreignReadings(const DepthImageView& depth, const SamplingGrid& grid,
                                             const Pose& T_camera_object, double reach_m);
 
+  /// The same however much they hide.
+  const std::vector<float>& nearerReadings(const DepthImageView& depth, const SamplingGrid& grid,
+                                           const Pose& T_camera_object, double reach_m);
+
   /// Before anything was seen of the object: at the pose that is given something nearer hides most of it, or all, and
   /// goes on beside it. An object that is only nearer than it was said to be does not go on.
   bool isHidden(const DepthImageView& depth, const SamplingGrid& grid, const Pose& T_camera_object, double reach_m);
@@ -37,6 +41,8 @@ class HeldView {
  private:
   bool hidesMuch(const std::vector<CoveredPixel>& covered, const DepthImageView& depth, const SamplingGrid& grid,
                  double reach_m) const;
+  void keepNearer(const std::vector<CoveredPixel>& covered, const DepthImageView& depth, const SamplingGrid& grid,
+                  double reach_m);
   void expect(const std::vector<CoveredPixel>& covered, const PinholeCamera& camera);
 
   DepthRenderer renderer_;
