@@ -32,7 +32,7 @@ double grownBy(const FreeTurn::Motion& motion, const Eigen::Vector3d& axis_in_ca
 
 }  // namespace
 
-FreeTurn::FreeTurn(std::vector<ScrewAxis> axes) {
+FreeTurn::FreeTurn(const std::vector<ScrewAxis>& axes) {
   for (const ScrewAxis& axis : axes) {
     axes_.emplace_back();
     axes_.back().axis = axis;
