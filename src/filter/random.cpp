@@ -25,11 +25,11 @@ double toOpenUnit(std::uint32_t bits) {
 
 }  // namespace
 
-double RandomSource::uniform(RandomPurpose purpose, std::uint64_t frame, std::uint32_t index) const {
+double CounterRandom::uniform(RandomPurpose purpose, std::uint64_t frame, std::uint32_t index) const {
   return toOpenUnit(block(seed_, purpose, frame, index, 15)[0]);
 }
 
-Vector6d RandomSource::normal6(RandomPurpose purpose, std::uint64_t frame, std::uint32_t index) const {
+Vector6d CounterRandom::normal6(RandomPurpose purpose, std::uint64_t frame, std::uint32_t index) const {
   Vector6d result;
   for (std::uint32_t pair = 0; pair < 3; ++pair) {
     // Box-Muller: two uniforms to two normals.

@@ -84,7 +84,7 @@ ImagePlane fitted(const PointGrid& grid, const std::vector<std::size_t>& on) {
 }
 
 /// A plane through three readings that are not far from one another in the image.
-std::optional<ImagePlane> drawPlane(const PointGrid& grid, const RandomSource& random, std::uint64_t number) {
+std::optional<ImagePlane> drawPlane(const PointGrid& grid, const CounterRandom& random, std::uint64_t number) {
   constexpr int kReach = 14;  // grid cells
   const auto uniform = [&](std::uint32_t index) { return random.uniform(RandomPurpose::kSearch, number, index); };
   const int row = static_cast<int>(uniform(0) * grid.rows), col = static_cast<int>(uniform(1) * grid.cols);
@@ -99,7 +99,7 @@ std::optional<ImagePlane> drawPlane(const PointGrid& grid, const RandomSource& r
   return facingTheCamera(normal.normalized(), p);
 }
 
-std::optional<ImagePlane> findLargest(const PointGrid& grid, const RandomSource& random, int round) {
+std::optional<ImagePlane> findLargest(const PointGrid& grid, const CounterRandom& random, int round) {
   constexpr std::size_t kCountEvery = 4;
   constexpr int kRefinements = 3;
   std::size_t most = 0;
@@ -136,7 +136,7 @@ double planeToleranceM(double z) {
 }
 
 std::vector<ImagePlane> findPlanes(const DepthImageView& depth, const PinholeCamera& camera, double max_depth_m) {
-  const RandomSource random(1);
+  const CounterRandom random(1);
   PointGrid grid = makeGrid(depth, camera, max_depth_m);
   std::vector<ImagePlane> planes;
   for (int round = 0; round < kMostPlanes && grid.count > 0; ++round) {

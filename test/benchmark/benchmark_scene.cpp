@@ -117,7 +117,7 @@ DepthImageView BenchmarkScene::frame(int index) const {
 
 std::vector<Pose> BenchmarkScene::drawPoses(int count, std::uint64_t seed) const {
   constexpr double kTranslationStddevM = 0.003, kRotationStddevRad = 1.5 * M_PI / 180.0;
-  const RandomSource random(seed);
+  const CounterRandom random(seed);
   std::vector<Pose> poses;
   for (int i = 0; i < count; ++i) {
     Vector6d delta = random.normal6(RandomPurpose::kProposal, 0, static_cast<std::uint32_t>(i));

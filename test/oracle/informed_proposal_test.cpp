@@ -41,7 +41,7 @@ class InformedProposalDensity : public testing::Test {
 
   ProcessStep step_;
   std::vector<LocalMode> modes_;
-  RandomSource random_{5};
+  CounterRandom random_{5};
 };
 
 TEST_F(InformedProposalDensity, BelongsToTheSamples) {

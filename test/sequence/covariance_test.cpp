@@ -128,7 +128,9 @@ TEST_F(PublishedCovariance, IsSymmetricAndPositiveAlsoWhileHiddenAndGrowsThen) {
     const double before = run_.result().covariance.diagonal().head<3>().sum();
     run_.step(restingPose(), Board{0, 640, 0.5});
     const double now = run_.result().covariance.diagonal().head<3>().sum();
-    if (k > 1) EXPECT_GT(now, before) << k;
+    if (k > 1) {
+      EXPECT_GT(now, before) << k;
+    }
     const Matrix6d& covariance = run_.result().covariance;
     EXPECT_LT((covariance - covariance.transpose()).norm(), 1e-12);
     const Vector6d eigenvalues = Eigen::SelfAdjointEigenSolver<Matrix6d>(covariance).eigenvalues();

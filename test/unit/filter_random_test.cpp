@@ -11,8 +11,8 @@
 namespace depth_object_tracker {
 namespace {
 
-TEST(RandomSource, UniformHasItsMomentsAndStaysInside) {
-  const RandomSource source(7);
+TEST(CounterRandom, UniformHasItsMomentsAndStaysInside) {
+  const CounterRandom source(7);
   constexpr int kDraws = 200000;
   double sum = 0.0, sum_of_squares = 0.0, lag = 0.0, last = 0.5;
   for (std::uint32_t i = 0; i < kDraws; ++i) {
@@ -30,8 +30,8 @@ TEST(RandomSource, UniformHasItsMomentsAndStaysInside) {
   EXPECT_NEAR(lag / kDraws, 0.0, 5.0 * 0.0833 / std::sqrt(kDraws));
 }
 
-TEST(RandomSource, NormalHasUnitCovarianceAndGaussianTails) {
-  const RandomSource source(11);
+TEST(CounterRandom, NormalHasUnitCovarianceAndGaussianTails) {
+  const CounterRandom source(11);
   constexpr int kDraws = 100000;
   Vector6d mean = Vector6d::Zero(), fourth = Vector6d::Zero();
   Matrix6d second = Matrix6d::Zero();
@@ -50,15 +50,15 @@ TEST(RandomSource, NormalHasUnitCovarianceAndGaussianTails) {
   EXPECT_NEAR(beyond_two / (6.0 * kDraws), 0.0455, 5.0 * std::sqrt(0.0455 / (6.0 * kDraws)));
 }
 
-TEST(RandomSource, SameCounterSameBytesInAnyOrder) {
-  const RandomSource source(123), again(123);
+TEST(CounterRandom, SameCounterSameBytesInAnyOrder) {
+  const CounterRandom source(123), again(123);
   std::vector<Vector6d> forward, backward(50);
   for (std::uint32_t i = 0; i < 50; ++i) forward.push_back(source.normal6(RandomPurpose::kProposal, 9, i));
   for (std::uint32_t i = 50; i-- > 0;) backward[i] = again.normal6(RandomPurpose::kProposal, 9, i);
   EXPECT_EQ(std::memcmp(forward.data(), backward.data(), 50 * sizeof(Vector6d)), 0);
 }
 
-TEST(RandomSource, EveryPartOfTheCounterMatters) {
+TEST(CounterRandom, EveryPartOfTheCounterMatters) {
   std::set<double> draws;
   const std::uint64_t far = std::uint64_t{1} << 40;
   int expected = 0;
@@ -68,8 +68,8 @@ TEST(RandomSource, EveryPartOfTheCounterMatters) {
           RandomPurpose::kSearch}) {
       for (const std::uint64_t frame : {std::uint64_t{0}, std::uint64_t{1}, far}) {
         for (const std::uint32_t index : {0u, 1u, 4000000000u}) {
-          draws.insert(RandomSource(seed).uniform(purpose, frame, index));
-          draws.insert(RandomSource(seed).normal6(purpose, frame, index)[0]);
+          draws.insert(CounterRandom(seed).uniform(purpose, frame, index));
+          draws.insert(CounterRandom(seed).normal6(purpose, frame, index)[0]);
           expected += 2;
         }
       }
@@ -78,9 +78,9 @@ TEST(RandomSource, EveryPartOfTheCounterMatters) {
   EXPECT_EQ(draws.size(), static_cast<std::size_t>(expected));
 }
 
-TEST(RandomSource, NeighbouringStreamsAreUncorrelated) {
+TEST(CounterRandom, NeighbouringStreamsAreUncorrelated) {
   constexpr int kDraws = 50000;
-  const RandomSource source(1), other_seed(2);
+  const CounterRandom source(1), other_seed(2);
   Vector6d frames = Vector6d::Zero(), indices = Vector6d::Zero(), seeds = Vector6d::Zero();
   for (std::uint32_t i = 0; i < kDraws; ++i) {
     const Vector6d x = source.normal6(RandomPurpose::kProposal, 1, i);

@@ -49,7 +49,7 @@ class BrickVotes : public ::testing::Test {
       return OrientedPoint{T * point.point, T.linear() * point.normal};
     };
     votes_.start(moved(points_[reference]));
-    const RandomSource random(3);
+    const CounterRandom random(3);
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const auto number = [&](std::uint32_t k) { return random.uniform(RandomPurpose::kSearch, i, k); };
       if (i != reference) votes_.vote(moved(points_[i]), {number(0), number(1), number(2), number(3)}, number(4));

@@ -17,7 +17,7 @@ const PinholeCamera kCamera{320, 240, 285.0, 285.0, 159.5, 119.5};
 class PlaneImage {
  public:
   explicit PlaneImage(const std::vector<ImagePlane>& planes) {
-    const RandomSource random(3);
+    const CounterRandom random(3);
     for (int row = 0; row < kCamera.height; ++row) {
       for (int col = 0; col < kCamera.width; ++col) {
         double nearest = 0.0;

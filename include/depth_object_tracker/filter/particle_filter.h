@@ -98,7 +98,7 @@ class ParticleFilter {
   FilterConfig config_;
   double object_radius_m_;
   Symmetries symmetries_;
-  RandomSource random_;
+  CounterRandom random_;
   std::uint64_t frame_ = 0;
 
   std::size_t wanted_particles_;

@@ -18,9 +18,9 @@ enum class RandomPurpose : std::uint32_t {
   kSearch = 5
 };
 
-class RandomSource {
+class CounterRandom {
  public:
-  explicit RandomSource(std::uint64_t seed) : seed_(seed) {}
+  explicit CounterRandom(std::uint64_t seed) : seed_(seed) {}
 
   /// Uniform in (0, 1).
   double uniform(RandomPurpose purpose, std::uint64_t frame, std::uint32_t index) const;

@@ -96,7 +96,7 @@ class PoseFinder {
   double diameter_m_, feature_m_;
   double radius_m_;
   double max_depth_m_;
-  RandomSource random_;
+  CounterRandom random_;
   std::shared_ptr<WorkerPool> pool_;
   std::vector<OrientedPoint> object_points_, image_points_;
   PointPairs pairs_;

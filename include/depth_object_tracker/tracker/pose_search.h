@@ -18,7 +18,7 @@ class PoseSearch {
   void around(const Pose& T_camera_centre, const Vector6d& variances, int count, std::vector<Pose>& poses);
 
  private:
-  RandomSource random_;
+  CounterRandom random_;
   std::uint64_t call_ = 0;
 };
 

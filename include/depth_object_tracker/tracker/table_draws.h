@@ -48,7 +48,7 @@ class TableDraws {
   double lowestOver(const ImagePlane& plane, const Pose& T_camera_centre) const;
 
   double diameter_m_, feature_m_;
-  RandomSource random_;
+  CounterRandom random_;
   std::vector<OrientedPoint> object_points_;
   std::vector<StablePose> rests_;
   std::vector<double> rest_weights_;  // summed up, last = 1
