@@ -68,9 +68,10 @@ double neededEvidence(const SearchRegion& region, double remoteness) {
 /// object does, where it is expected, is hardly anything else.
 /// @param score 1 = as well as the object usually does.
 double worthFollowing(const SearchRegion& region, double remoteness, double score) {
-  constexpr double kMoreIfHidden = 0.5, kLessIfItFits = 1.8, kFits = 0.97, kFitsNot = 0.94;
+  constexpr double kMoreIfHidden = 0.5, kLessIfItFits = 2.5, kFits = 0.97, kFitsNot = 0.94, kNear = 0.3;
   const double fit = std::clamp((score - kFitsNot) / (kFits - kFitsNot), 0.0, 1.0);
-  return between(0.3 - kLessIfItFits * fit, 1.2 + (region.everywhere ? 0.0 : kMoreIfHidden), remoteness);
+  const double nearness = std::max(0.0, 1.0 - remoteness / kNear);
+  return between(0.3, 1.2 + (region.everywhere ? 0.0 : kMoreIfHidden), remoteness) - kLessIfItFits * fit * nearness;
 }
 
 /// Evidence [nat] against a pose to which an object that was surely followed could hardly have moved; no more than that

@@ -178,6 +178,17 @@ class Recording : public testing::Test {
     return options;
   }
 
+  /// @return the device's times of the images [us], in their order.
+  static std::vector<std::uint64_t> imagesPlayedOnce() {
+    CameraLog log;
+    DepthCamera camera(fast(plain()), log.events());
+    camera.setWanted(true);
+    EXPECT_TRUE(waitFor([&] { return log.count("has ended") == 1; }));
+    std::vector<std::uint64_t> times;
+    for (const auto& image : log.images()) times.push_back(virtualTime(image.pixels()));
+    return times;
+  }
+
   CameraLog log_;
   static TemporaryFolder* folder_;
 };
@@ -202,27 +213,19 @@ TEST_F(Recording, IsPlayedOnceEveryImageInItsPlace) {
 }
 
 TEST_F(Recording, PlaysTheSameImagesEachTime) {
-  std::vector<std::uint64_t> times[2];
-  for (auto& run : times) {
-    CameraLog log;
-    DepthCamera camera(fast(plain()), log.events());
-    camera.setWanted(true);
-    ASSERT_TRUE(waitFor([&] { return log.count("has ended") == 1; }));
-    for (const auto& image : log.images()) run.push_back(virtualTime(image.pixels()));
-  }
-  EXPECT_EQ(times[0], times[1]);
+  EXPECT_EQ(imagesPlayedOnce(), imagesPlayedOnce());
 }
 
 TEST_F(Recording, Loops) {
+  const std::vector<std::uint64_t> once = imagesPlayedOnce();  // a busy machine records more than it was asked to
   DepthCameraOptions options = fast(plain());
   options.loop = true;
   DepthCamera camera(options, log_.events());
   camera.setWanted(true);
-  ASSERT_TRUE(waitFor([&] { return log_.size() >= 3 * kRecordedFrames; }));
+  ASSERT_TRUE(waitFor([&] { return log_.size() >= 3 * once.size(); }));
   std::set<std::uint64_t> times;
-  const auto images = log_.images();
-  for (const auto& image : images) times.insert(virtualTime(image.pixels()));
-  EXPECT_LE(times.size(), static_cast<std::size_t>(kRecordedFrames) + 1);
+  for (const auto& image : log_.images()) times.insert(virtualTime(image.pixels()));
+  EXPECT_EQ(times, std::set<std::uint64_t>(once.begin(), once.end()));
   EXPECT_EQ(log_.count("has ended"), 0);
 }
 
