@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <fstream>
+#include <thread>
 
 namespace depth_object_tracker {
 namespace {
@@ -87,7 +89,12 @@ struct OpenNI2Device::Handles {
 
   ~Handles() {
     frame.release();
+    const bool is_file = device.isValid() && device.isFile();
     stream.stop();
+    // OpenNI's player goes through its streams without a lock, all the time: let it notice that none is started any
+    // more, and sleep, before one is taken away from under it.
+    constexpr std::chrono::milliseconds kPlayerComesToRest(50);
+    if (is_file) std::this_thread::sleep_for(kPlayerComesToRest);
     stream.destroy();
     device.close();
   }
