@@ -25,6 +25,10 @@ double left(double dt_s, double half_life_s) {
 
 }  // namespace
 
+Illusions::Illusions() {
+  illusions_.reserve(kMost);  // frames allocate nothing
+}
+
 double Illusions::known(const Pose& T_estimate_pose) const {
   double most = 0.0;
   for (const Illusion& illusion : illusions_) {

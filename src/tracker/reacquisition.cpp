@@ -66,10 +66,12 @@ double neededEvidence(const SearchRegion& region, double remoteness) {
 
 /// What fits by chance does so in the next image, too: only what is better than this adds up. What fits as well as the
 /// object does, where it is expected, is hardly anything else.
-/// @param score 1 = as well as the object usually does.
-double worthFollowing(const SearchRegion& region, double remoteness, double score) {
+/// @param score 1 = as well as the object usually does. @param visible share: some little thing fits anywhere.
+double worthFollowing(const SearchRegion& region, double remoteness, double score, double visible) {
   constexpr double kMoreIfHidden = 0.5, kLessIfItFits = 2.5, kFits = 0.97, kFitsNot = 0.94, kNear = 0.3;
-  const double fit = std::clamp((score - kFitsNot) / (kFits - kFitsNot), 0.0, 1.0);
+  constexpr double kLittle = 0.3, kMuch = 0.6;
+  const double fit = std::clamp((score - kFitsNot) / (kFits - kFitsNot), 0.0, 1.0) *
+                     std::clamp((visible - kLittle) / (kMuch - kLittle), 0.0, 1.0);
   const double nearness = std::max(0.0, 1.0 - remoteness / kNear);
   return between(0.3, 1.2 + (region.everywhere ? 0.0 : kMoreIfHidden), remoteness) - kLessIfItFits * fit * nearness;
 }
@@ -132,7 +134,8 @@ std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const Pin
     return one.assessment.achieved / std::max(1e-9, one.assessment.expected) / usualScore();
   };
   const auto evidence = [&](const FoundPose& one) {
-    return evidenceBefore(one.T_camera_centre) + logOdds(one) - worthFollowing(region, remote(one), score(one));
+    return evidenceBefore(one.T_camera_centre) + logOdds(one) -
+           worthFollowing(region, remote(one), score(one), one.assessment.visibleShare());
   };
   const auto margin = [&](const FoundPose& one) { return evidence(one) - neededEvidence(region, remote(one)); };
   std::stable_sort(found_.begin(), found_.end(),

@@ -12,6 +12,8 @@ namespace depth_object_tracker {
 /// the hand holds) it says no more than it did then; only what comes on top is evidence.
 class Illusions {
  public:
+  Illusions();
+
   /// @return evidence [nat] for a pose, T_estimate_pose, that is known to be none; 0 or more.
   double known(const Pose& T_estimate_pose) const;
 
