@@ -134,7 +134,7 @@ class ObjectTracker::Implementation {
   void startAt(const Pose& T_camera_centre);
   /// Moves to a pose that looks alike but explains the image better.
   void turnToLookAlike(FilterEstimate& estimate, PoseAssessment& assessment, double dt_s);
-  /// About an axis that the image does not show, to the middle of what may be.
+  /// About an axis that the image does not show: to where it should be or, where that is contradicted, to the middle.
   void turnToMiddle(FilterEstimate& estimate, PoseAssessment& assessment, double dt_s);
   /// Particles' velocities are relative to the hand while it is followed: hand over at grasp and release.
   void followHand(const ProcessStep& step, bool follows, double dt_s);
