@@ -26,6 +26,7 @@ add_executable(track_sequence src/tools/track_sequence.cpp)
 target_link_libraries(track_sequence PRIVATE depth_object_tracker_tools depth_object_tracker_warnings)
 
 add_executable(initialisation_trials
+  src/tools/image_evidence.cpp
   src/tools/initialisation_trial.cpp
   src/tools/initialisation_trials.cpp
   src/tools/trial_scene.cpp

@@ -80,6 +80,28 @@ void assessSurroundings(const MeasuredPixel& pixel, float surface_depth, PoseAss
   if (offset >= kSameSurfaceStddevs) ++sum.beyond_pixels;
 }
 
+/// Where a surface is seen, and whether that is the object's, or hides it.
+struct SeenSurface {
+  float depth = 0.0f;      ///< reading [m]; 0 = says nothing
+  bool is_object = false;  ///< else it hides the object
+};
+
+SeenSurface seenSurface(const MeasuredPixel& pixel, float object_depth) {
+  constexpr float kSameStddevs = 3.0f, kHiddenStddevs = 5.0f;
+  const float in_front = (object_depth - pixel.depth) * pixel.inverse_stddev;
+  if (pixel.depth <= 0.0f || in_front < -kSameStddevs) return {};
+  if (in_front > kHiddenStddevs) return {pixel.depth, false};
+  return in_front < kSameStddevs ? SeenSurface{pixel.depth, true} : SeenSurface{};
+}
+
+/// What hides a part of the object stands before it. A board that is taken for one of its faces does not: the rest of
+/// the object would be behind the same board.
+void assessEdge(const SeenSurface& a, const SeenSurface& b, float largest_step_m, PoseAssessment& sum) {
+  if (a.depth <= 0.0f || b.depth <= 0.0f || a.is_object == b.is_object) return;
+  ++sum.hidden_edges;
+  if (std::abs(a.depth - b.depth) < largest_step_m) ++sum.merging_edges;
+}
+
 Linearisation unpacked(const LinearisationSums& sums) {
   Linearisation result;
   std::size_t entry = 6;
@@ -328,7 +350,31 @@ PoseAssessment DepthLikelihood::assess(const Pose& T_camera_centre, int thread, 
                   data.model, result);
     }
   }
+  assessHiddenEdges(tile, result);
   return result;
+}
+
+void DepthLikelihood::assessHiddenEdges(const DepthTile& tile, PoseAssessment& result) const {
+  constexpr float kSteepest = 1.5f, kNoiseStddevs = 4.0f;
+  const auto surface = [&](int row, int col) {
+    if (row < 0 || col < 0) return SeenSurface();
+    if (tile.touched[static_cast<std::size_t>(row / kTileSize * tile.tile_cols + col / kTileSize)] == 0)
+      return SeenSurface();
+    const float depth = tile.depth()[row * tile.stride + col];
+    if (!(depth < std::numeric_limits<float>::infinity())) return SeenSurface();
+    return seenSurface(image_.pixel(tile.row_begin + row, tile.col_begin + col), depth);
+  };
+  const auto focal_px = static_cast<float>(image_.grid().camera.fx);
+  for (int row = 0; row < tile.rows; ++row) {
+    for (int col = 0; col < tile.cols; ++col) {
+      const SeenSurface here = surface(row, col);
+      if (here.depth <= 0.0f) continue;
+      const float noise_m = static_cast<float>(pixel_config_.depth_noise_per_m) * here.depth * here.depth;
+      const float largest_step_m = kSteepest * here.depth / focal_px + kNoiseStddevs * noise_m;
+      assessEdge(here, surface(row, col - 1), largest_step_m, result);
+      assessEdge(here, surface(row - 1, col), largest_step_m, result);
+    }
+  }
 }
 
 bool DepthLikelihood::explains(const Pose& T_camera_centre) {

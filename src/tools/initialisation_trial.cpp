@@ -56,6 +56,23 @@ bool isTable(const std::optional<ImagePlane>& plane, const TrialScene& scene) {
   return std::abs(plane->heightOf(p) - (scene.table_normal.dot(p) - scene.table_offset_m)) < kSameM;
 }
 
+DepthImageView viewOf(const TrialFrame& frame, const PinholeCamera& camera) {
+  DepthImageView view;
+  view.data = reinterpret_cast<const std::uint8_t*>(frame.depth_mm.data());
+  view.width = camera.width;
+  view.height = camera.height;
+  view.step = static_cast<std::size_t>(view.width) * sizeof(std::uint16_t);
+  return view;
+}
+
+/// A mug's handle may be behind the mug.
+bool isUndecidable(ImageEvidence& evidence, const TrialScene& scene, const TrackerResult& result) {
+  constexpr double kSurelyNat = 3.0;
+  const TrialFrame& last = scene.frames.back();
+  return result.has_pose && evidence.between(viewOf(last, scene.camera), scene.camera, last.T_camera_object,
+                                             result.T_camera_object) < kSurelyNat;
+}
+
 }  // namespace
 
 const char* modeName(InitialisationMode mode) {
@@ -71,22 +88,18 @@ const char* modeName(InitialisationMode mode) {
   }
 }
 
-TrialOutcome runTrial(ObjectTracker& tracker, const PoseErrorMeter& meter, const TrialScene& scene,
-                      InitialisationMode mode, std::uint64_t seed) {
+TrialOutcome runTrial(ObjectTracker& tracker, const PoseErrorMeter& meter, ImageEvidence& evidence,
+                      const TrialScene& scene, InitialisationMode mode, std::uint64_t seed) {
   TrialOutcome outcome;
   start(tracker, scene.frames.front(), mode, seed);
   int right = 0;
   double spent_s = 0.0;
+  TrackerResult result;
   for (std::size_t k = 0; k < scene.frames.size() && right < kRightFrames; ++k) {
     const TrialFrame& frame = scene.frames[k];
-    DepthImageView view;
-    view.data = reinterpret_cast<const std::uint8_t*>(frame.depth_mm.data());
-    view.width = scene.camera.width;
-    view.height = scene.camera.height;
-    view.step = static_cast<std::size_t>(view.width) * sizeof(std::uint16_t);
     const bool is_first = k == 0;
     const double begin_s = processorSeconds();
-    const TrackerResult result = tracker.update(view, scene.camera, frame.stamp_s);
+    result = tracker.update(viewOf(frame, scene.camera), scene.camera, frame.stamp_s);
     spent_s += processorSeconds() - begin_s;
     if (is_first && mode == InitialisationMode::kOnTable) outcome.plane_found = isTable(tracker.table(), scene);
     const PoseError error = meter.measure(result.T_camera_object, frame.T_camera_object);
@@ -102,6 +115,7 @@ TrialOutcome runTrial(ObjectTracker& tracker, const PoseErrorMeter& meter, const
   if (right == 0) {
     outcome.frames = 0;
     outcome.compute_s = spent_s;
+    outcome.undecidable = isUndecidable(evidence, scene, result);
   }
   return outcome;
 }

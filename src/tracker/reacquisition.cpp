@@ -4,6 +4,7 @@
 #include "tracker/pose_evidence.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace depth_object_tracker {
 namespace {
@@ -15,6 +16,7 @@ constexpr SearchEffort kOnTable{0, 20000, 2000, 400, 24};
 constexpr SearchEffort kOfSurvivors{0, 60, 60, 20, 10};
 constexpr std::size_t kSurvivors = 6;
 constexpr double kSameM = 0.05, kSameRad = 0.5;  // from image to image
+constexpr double kPlacesToHide = 0.25;           // of those where the object may be
 
 Vector6d survivorVariances() {
   Vector6d variances;
@@ -58,22 +60,31 @@ double between(double near, double far, double remoteness) {
   return near + (far - near) * remoteness;
 }
 
+/// Evidence [nat] against a pose that an object which was followed until something hid it could hardly have reached.
+double outOfReach(const Pose& pose, const SearchRegion& region) {
+  constexpr double kMostNat = 4.0, kUsualNat = 2.0;
+  const Eigen::Vector3d moved = pose.translation() - region.T_camera_centre.translation();
+  const Eigen::Vector3d variances = (region.variances + region.moved_on.cwiseAbs2()).head<3>();
+  return std::clamp(0.5 * moved.cwiseAbs2().cwiseQuotient(variances).sum() - kUsualNat, 0.0, kMostNat);
+}
+
 /// Evidence [nat], gathered over images, that a pose needs to be taken for the object's.
-double neededEvidence(const SearchRegion& region, double remoteness) {
-  constexpr double kMoreIfHidden = 1.5;  // most likely it is still behind what hides it
-  return between(0.6, 1.8 + (region.everywhere ? 0.0 : kMoreIfHidden), remoteness);
+/// @param is_hidden most likely it is still behind what hides it.
+double neededEvidence(bool is_hidden, double remoteness) {
+  constexpr double kMoreIfHidden = 1.5;
+  return between(0.6, 1.8 + (is_hidden ? kMoreIfHidden : 0.0), remoteness);
 }
 
 /// What fits by chance does so in the next image, too: only what is better than this adds up. What fits as well as the
 /// object does, where it is expected, is hardly anything else.
 /// @param score 1 = as well as the object usually does. @param visible share: some little thing fits anywhere.
-double worthFollowing(const SearchRegion& region, double remoteness, double score, double visible) {
+double worthFollowing(bool is_hidden, double remoteness, double score, double visible) {
   constexpr double kMoreIfHidden = 0.5, kLessIfItFits = 2.5, kFits = 0.97, kFitsNot = 0.94, kNear = 0.3;
   constexpr double kLittle = 0.3, kMuch = 0.6;
   const double fit = std::clamp((score - kFitsNot) / (kFits - kFitsNot), 0.0, 1.0) *
                      std::clamp((visible - kLittle) / (kMuch - kLittle), 0.0, 1.0);
   const double nearness = std::max(0.0, 1.0 - remoteness / kNear);
-  return between(0.3, 1.2 + (region.everywhere ? 0.0 : kMoreIfHidden), remoteness) - kLessIfItFits * fit * nearness;
+  return between(0.3, 1.2 + (is_hidden ? kMoreIfHidden : 0.0), remoteness) - kLessIfItFits * fit * nearness;
 }
 
 /// Evidence [nat] against a pose to which an object that was surely followed could hardly have moved; no more than that
@@ -126,6 +137,8 @@ std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const Pin
   add(finder_->searchAround(survivorPoses(), survivorVariances(), kOfSurvivors));
   if (region.everywhere || everywhere_instead) add(finder_->searchEverywhere(kEverywhere));
 
+  const bool is_hidden =
+      !region.everywhere || (region.was_followed && hiddenShare(region, depth, camera) > kPlacesToHide);
   // An object that was never seen may be another one, or have another size.
   const auto remote = [&](const FoundPose& one) {
     return usual_score_ ? remoteness(one.T_camera_centre, region) : 1.0;
@@ -135,9 +148,12 @@ std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const Pin
   };
   const auto evidence = [&](const FoundPose& one) {
     return evidenceBefore(one.T_camera_centre) + logOdds(one) -
-           worthFollowing(region, remote(one), score(one), one.assessment.visibleShare());
+           worthFollowing(is_hidden, remote(one), score(one), one.assessment.visibleShare());
   };
-  const auto margin = [&](const FoundPose& one) { return evidence(one) - neededEvidence(region, remote(one)); };
+  const auto margin = [&](const FoundPose& one) {
+    const double out_of_reach = is_hidden && region.was_followed ? outOfReach(one.T_camera_centre, region) : 0.0;
+    return evidence(one) - neededEvidence(is_hidden, remote(one)) - out_of_reach;
+  };
   std::stable_sort(found_.begin(), found_.end(),
                    [&](const FoundPose& a, const FoundPose& b) { return margin(a) > margin(b); });
   const bool is_sure = !found_.empty() && margin(found_.front()) > 0.0;
@@ -148,6 +164,27 @@ std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const Pin
   survivors_ = std::move(survivors);
   if (!is_sure) return std::nullopt;
   return finder_->settle(likeliestOfTheBest(found_, region), region.T_camera_centre, region.variances).T_camera_centre;
+}
+
+/// Of the places where the object may be, those at which something in front would hide it.
+double Reacquisition::hiddenShare(const SearchRegion& region, const DepthImageView& depth,
+                                  const PinholeCamera& camera) const {
+  constexpr int kPlaces = 100;
+  constexpr double kInFrontM = 0.04;
+  const CounterRandom random(1);
+  const Eigen::Vector3d stddevs = (region.variances + region.moved_on.cwiseAbs2()).head<3>().cwiseSqrt();
+  int hidden = 0;
+  for (int i = 0; i < kPlaces; ++i) {
+    const Vector6d normal = random.normal6(RandomPurpose::kSearch, 0, static_cast<std::uint32_t>(i));
+    const Eigen::Vector3d place = region.T_camera_centre.translation() + stddevs.cwiseProduct(normal.head<3>());
+    if (!(place.z() > kInFrontM)) continue;
+    const Eigen::Vector2d pixel = camera.project(place);
+    const int row = static_cast<int>(std::floor(pixel.y())), col = static_cast<int>(std::floor(pixel.x()));
+    if (row < 0 || row >= depth.height || col < 0 || col >= depth.width) continue;
+    const auto reading = static_cast<double>(depth.at(row, col));
+    hidden += reading > 0.0 && reading < place.z() - kInFrontM ? 1 : 0;
+  }
+  return static_cast<double>(hidden) / kPlaces;
 }
 
 double Reacquisition::logOdds(const FoundPose& found) const {

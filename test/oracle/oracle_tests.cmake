@@ -3,6 +3,7 @@ add_tracker_test(model_oracle_tests SOURCES
   oracle/measured_image_test.cpp
   oracle/pixel_density_test.cpp)
 add_tracker_test(likelihood_oracle_tests SOURCES
+  oracle/hidden_edges_test.cpp
   oracle/likelihood_gradient_test.cpp
   oracle/occlusion_brute_force_test.cpp)
 add_tracker_test(engine_oracle_tests SOURCES

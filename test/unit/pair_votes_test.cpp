@@ -127,6 +127,16 @@ TEST(FindLogOdds, RiseWhereTheOutlineIsSeenToEnd) {
   EXPECT_LT(findLogOdds(nowhere_seen_to_end, 0.98), findLogOdds(wellSeen(), 0.98) - 2.0);
 }
 
+TEST(FindLogOdds, FallWhereTheHiddenPartsWouldBeBehindTheSeenOnesSurface) {
+  PoseAssessment beside_fingers = wellSeen();
+  beside_fingers.hidden_edges = 60;
+  beside_fingers.merging_edges = 20;
+  EXPECT_EQ(findLogOdds(beside_fingers, 0.98), findLogOdds(wellSeen(), 0.98));
+  PoseAssessment in_a_board = beside_fingers;
+  in_a_board.merging_edges = 60;
+  EXPECT_LT(findLogOdds(in_a_board, 0.98), findLogOdds(wellSeen(), 0.98) - 3.0);
+}
+
 TEST(FindLogOdds, DoNotBlameTheObjectForWhatHidesHalfOfIt) {
   PoseAssessment half_hidden = wellSeen();
   half_hidden.visible_pixels *= 0.5;

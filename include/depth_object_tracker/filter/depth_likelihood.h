@@ -29,6 +29,8 @@ struct PoseAssessment {
   int surrounding_pixels = 0;   ///< measured pixels just outside of the outline
   int continued_pixels = 0;     ///< ... of which with a reading that carries on the surface beside them
   int beyond_pixels = 0;        ///< ... of which with a reading clearly behind: the object ends there
+  int hidden_edges = 0;         ///< neighbouring pixels, the object seen in one and hidden in the other
+  int merging_edges = 0;  ///< ... of which without a step between their readings: what hides carries on what is seen
 
   /// Of the object, in [0, 1]: where most of it has no reading little is seen of it, however well the rest fits.
   double visibleShare() const;
@@ -128,6 +130,7 @@ class DepthLikelihood : public PoseLikelihood {
   int tileIndex(const DepthTile& tile, int index) const;
   TileLikelihoodInput input() const;
   TileGeometry geometryOf(const Pose& T_camera_centre, const DepthTile& tile) const;
+  void assessHiddenEdges(const DepthTile& tile, PoseAssessment& result) const;
   double updateParticle(int index, const Pose& T_camera_centre, int thread);
 
   ObjectShape shape_;

@@ -19,10 +19,8 @@ struct SearchRegion {
   bool is_known = true;                   ///< false: anywhere in the image
   bool everywhere = false;                ///< is_known: in the rest of the image, too, else in every third one
   bool on_table = false;                  ///< not is_known: it rests on a plane that the image shows
-  /// Of where the object may be [m^2], about an estimate that was surely followed; none = anywhere.
-  std::optional<Eigen::Vector3d> reach;
-  bool is_unproven = false;             ///< the estimate was found, and never surely seen since
-  KnownOccluders* occluders = nullptr;  ///< the object is not where one of them is seen; null = none
+  bool was_followed = false;              ///< surely, until it was seen no more
+  KnownOccluders* occluders = nullptr;    ///< the object is not where one of them is seen; null = none
 };
 
 /// Of a pose from where the object is expected, in squared standard deviations; 6 on average for the right one.
@@ -87,6 +85,7 @@ class Reacquisition {
   std::optional<Pose> searchAnywhere(const SearchRegion& region);
 
   double logOdds(const FoundPose& found) const;
+  double hiddenShare(const SearchRegion& region, const DepthImageView& depth, const PinholeCamera& camera) const;
 
   static constexpr double kScoreOfAFairMesh = 0.92;
   std::unique_ptr<PoseFinder> finder_;
