@@ -63,8 +63,10 @@ double between(double near, double far, double remoteness) {
 /// Evidence [nat] against a pose that an object which was followed until something hid it could hardly have reached.
 double outOfReach(const Pose& pose, const SearchRegion& region) {
   constexpr double kMostNat = 4.0, kUsualNat = 2.0;
+  constexpr double kCarriedMps = 0.15;  // by somebody whom one does not see
   const Eigen::Vector3d moved = pose.translation() - region.T_camera_centre.translation();
-  const Eigen::Vector3d variances = (region.variances + region.moved_on.cwiseAbs2()).head<3>();
+  Eigen::Vector3d variances = (region.variances + region.moved_on.cwiseAbs2()).head<3>();
+  variances.array() += std::pow(kCarriedMps * region.unseen_s, 2.0);
   return std::clamp(0.5 * moved.cwiseAbs2().cwiseQuotient(variances).sum() - kUsualNat, 0.0, kMostNat);
 }
 
@@ -115,12 +117,13 @@ std::vector<Pose> Reacquisition::survivorPoses() const {
 }
 
 double Reacquisition::evidenceBefore(const Pose& T_camera_centre) const {
+  constexpr double kMostNat = 3.0;  // many images of one arm say no more than a few
   double most = 0.0;
   for (const Survivor& other : survivors_) {
     const double moved_m = (other.T_camera_centre.translation() - T_camera_centre.translation()).norm();
     if (moved_m < kSameM) most = std::max(most, other.evidence);
   }
-  return most;
+  return std::min(most, kMostNat);
 }
 
 std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const PinholeCamera& camera,

@@ -55,6 +55,7 @@ bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, doubl
   // As long as something in front explains why nothing is seen, the object is most likely still behind it.
   region.everywhere = status.state() == TrackerState::kLost || status.state() == TrackerState::kInitializing ||
                       status.misfit() || unseen_s > kSearchEverywhereAfterS;
+  region.unseen_s = unseen_s + dt_s;
   region.was_followed = since_sure_s - unseen_s < kTrustedForS;
   region.occluders = known_occluders;
   const std::optional<Pose> found = reacquisition.search(depth, camera_in_use, region);
