@@ -9,7 +9,8 @@
 namespace depth_object_tracker {
 namespace {
 
-constexpr double kFocalPx = 100.0, kHalfWidthM = 0.15, kPlateM = 1.0, kTurnRad = 0.6;
+constexpr double kFocalPx = 100.0, kPlateM = 1.0, kTurnRad = 0.6;
+constexpr float kHalfWidthM = 0.15f;
 
 /// A plate that is turned about its upright middle line: its left half lies farther away than its right one.
 class HiddenEdges : public testing::Test {
