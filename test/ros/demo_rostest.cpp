@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The running demo: what the simulator publishes, and that the tracker follows the object.
+#include "slowness.h"
+
 #include "depth_object_tracker/ros/simulator_monitor.h"
 #include "depth_object_tracker/ros/simulator_publisher.h"
 
@@ -17,7 +19,7 @@
 namespace depth_object_tracker {
 namespace {
 
-const ros::Duration kPatience(30.0);
+const ros::Duration kPatience(30.0 * kSlowness);
 
 TEST(Demo, CameraPublishesMillimetresAndItsCalibration) {
   const auto image = ros::topic::waitForMessage<sensor_msgs::Image>("/camera/depth/image_raw", kPatience);

@@ -132,7 +132,7 @@ TEST_F(ManyObjects, KeepUpWithALiveCamera) {
     const auto sum = [](const TrackerStatus& status) { return status.frames_processed + status.frames_dropped; };
     return static_cast<double>(sum(*now) - sum(before[k])) >= 0.9 * num_frames;
   };
-  for (std::size_t k = 0; k < camera_->numObjects(); ++k) waitUntil([&] { return is_counted(k); }, 30.0);
+  for (std::size_t k = 0; k < camera_->numObjects(); ++k) waitUntil([&] { return is_counted(k); }, 30.0 * kSlowness);
   ros::WallDuration(0.5).sleep();
   std::printf("%d images at %.1f Hz\n", num_frames, num_frames / elapsed_s);
   for (std::size_t k = 0; k < camera_->numObjects(); ++k) {
