@@ -2,7 +2,12 @@
 # Debian's.
 if(SANITIZE AND TARGET depth_object_tracker_ros)
   #catkin_lint: skip
-  find_program(SYSTEM_NODELET_PROGRAM nodelet PATHS ${nodelet_DIR}/../../../lib/nodelet NO_DEFAULT_PATH)
+  # Beside share/nodelet/cmake, or Debian's lib/ARCHITECTURE/cmake/nodelet.
+  find_program(SYSTEM_NODELET_PROGRAM nodelet
+    PATHS ${nodelet_DIR}/../../../lib/nodelet ${nodelet_DIR}/../../../nodelet NO_DEFAULT_PATH)
+  if(NOT SYSTEM_NODELET_PROGRAM)
+    message(FATAL_ERROR "the program nodelet of the package nodelet is not near ${nodelet_DIR}")
+  endif()
   add_executable(sanitized_nodelet_manager sanitizers/nodelet_manager.cpp)
   target_link_libraries(sanitized_nodelet_manager PRIVATE depth_object_tracker_ros depth_object_tracker_warnings)
   target_compile_definitions(sanitized_nodelet_manager PRIVATE SYSTEM_NODELET_PROGRAM="${SYSTEM_NODELET_PROGRAM}")
