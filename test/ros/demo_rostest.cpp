@@ -89,5 +89,6 @@ int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   ros::init(argc, argv, "demo_rostest");
   const ros::NodeHandle node;  // callbacks run where a test asks for them
+  ros::Time::waitForValid();   // under a sanitizer it is simulated
   return RUN_ALL_TESTS();
 }
