@@ -101,7 +101,7 @@ int FreeTurn::look(DepthLikelihood& likelihood, const Pose& estimate, double exp
   }
   axis.belief.weigh([this](double angle) {
     const double steps = angle / kStepRad, below = std::floor(steps);
-    const auto k = static_cast<std::size_t>(static_cast<int>(below) + AngleBelief::kSteps);
+    const auto k = static_cast<std::size_t>(below + AngleBelief::kSteps);
     const double share = steps - below;
     return (1.0 - share) * against_[k % AngleBelief::kSteps] + share * against_[(k + 1) % AngleBelief::kSteps];
   });

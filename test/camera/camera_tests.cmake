@@ -21,20 +21,28 @@ target_include_directories(depth_camera_test SYSTEM PRIVATE ${OPENNI2_INCLUDE_DI
 target_link_libraries(depth_camera_test PRIVATE depth_object_tracker_core depth_object_tracker_camera
   depth_object_tracker_warnings ${OPENNI2_LIBRARY} GTest::gmock GTest::gtest_main)
 target_compile_definitions(depth_camera_test PRIVATE PROJECT_SOURCE_FOLDER="${PROJECT_SOURCE_DIR}")
+if(SANITIZE)
+  target_sources(depth_camera_test PRIVATE sanitizers/keep_libraries.cpp)
+  set_target_properties(depth_camera_test PROPERTIES ENABLE_EXPORTS ON)
+endif()
 add_dependencies(depth_camera_test virtual_depth_driver)
 add_test(NAME depth_camera_test COMMAND ${WITH_VIRTUAL_DEVICE} $<TARGET_FILE:depth_camera_test>)
-set_tests_properties(depth_camera_test PROPERTIES TIMEOUT 600 SKIP_RETURN_CODE 77)
+set_tests_properties(depth_camera_test PROPERTIES TIMEOUT ${TEST_TIMEOUT_S} SKIP_RETURN_CODE 77)
 
 if(NOT TARGET depth_object_tracker_ros_camera OR NOT ROSTEST_PROGRAM)
   return()
 endif()
 
 add_executable(openni2_camera_rostest camera/openni2_camera_rostest.cpp)
-target_include_directories(openni2_camera_rostest PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/ros)
+target_include_directories(openni2_camera_rostest PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/ros ${CMAKE_CURRENT_SOURCE_DIR}/support)
 target_include_directories(openni2_camera_rostest SYSTEM PRIVATE ${OPENNI2_INCLUDE_DIR})
 target_link_libraries(openni2_camera_rostest PRIVATE depth_object_tracker_ros_camera depth_object_tracker_warnings
   ${OPENNI2_LIBRARY} GTest::gtest)
 target_compile_definitions(openni2_camera_rostest PRIVATE PROJECT_SOURCE_FOLDER="${PROJECT_SOURCE_DIR}")
+if(SANITIZE)
+  target_sources(openni2_camera_rostest PRIVATE sanitizers/keep_libraries.cpp)
+  set_target_properties(openni2_camera_rostest PROPERTIES ENABLE_EXPORTS ON)
+endif()
 add_dependencies(openni2_camera_rostest virtual_depth_driver depth_object_tracker_nodelets
   depth_object_tracker_camera_nodelets)
 
@@ -43,8 +51,8 @@ function(add_virtual_camera_test name)
   add_test(NAME ${name}
     COMMAND ${WITH_VIRTUAL_DEVICE} ${CATKIN_DEVEL_PREFIX}/env.sh rostest ${CMAKE_CURRENT_SOURCE_DIR}/camera/${name}.test)
   # Alone: the tracker has to keep up with a camera that waits for nobody.
-  set_tests_properties(${name} PROPERTIES TIMEOUT 600 SKIP_RETURN_CODE 77 RUN_SERIAL TRUE
-    ENVIRONMENT "PATH=/usr/bin:/bin:$ENV{PATH};ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;ROS_HOSTNAME=localhost")
+  set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77 RUN_SERIAL TRUE)
+  set_ros_test(${name} 600)
 endfunction()
 
 add_virtual_camera_test(openni2_live_rostest)

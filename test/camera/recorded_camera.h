@@ -2,6 +2,7 @@
 // Tests with the virtual depth camera: a recording of it, its plug, and all that a DepthCamera says.
 #pragma once
 
+#include "slowness.h"
 #include "virtual_scene.h"
 
 #include "depth_object_tracker/camera/depth_camera.h"
@@ -108,7 +109,7 @@ class CameraLog {
 /// Waits long enough for the busiest machine.
 template <typename Condition>
 bool waitFor(const Condition& condition) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(60.0 * kSlowness);
   while (!condition()) {
     if (std::chrono::steady_clock::now() > end) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));

@@ -21,5 +21,5 @@ endif()
 foreach(name IN LISTS EVALUATION_TESTS)
   add_test(NAME evaluation_${name}
     COMMAND ${EVALUATION_PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/evaluation/${name}_test.py)
-  set_tests_properties(evaluation_${name} PROPERTIES TIMEOUT 600 ENVIRONMENT "${EVALUATION_ENVIRONMENT}")
+  set_tests_properties(evaluation_${name} PROPERTIES TIMEOUT ${TEST_TIMEOUT_S} ENVIRONMENT "${EVALUATION_ENVIRONMENT}")
 endforeach()

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The demo in which a robot holds the object and somebody pushes it in the hand.
+#include "slowness.h"
+
 #include "depth_object_tracker/ros/simulator_monitor.h"
 
 #include <depth_object_tracker/Grasp.h>
@@ -19,7 +21,7 @@
 namespace depth_object_tracker {
 namespace {
 
-const ros::Duration kPatience(60.0);
+const ros::Duration kPatience(60.0 * kSlowness);
 
 TEST(RobotDemo, PublishesJointsAndCommands) {
   for (const char* topic : {"/joint_states", "/joint_commands"}) {

@@ -45,7 +45,7 @@ class Faults : public testing::Test {
 
   /// Waits until the tracker has said so, in a status, a log line or /diagnostics.
   void expectSaid(const std::string& text) {
-    EXPECT_TRUE(waitUntil([&] { return camera().hasSaid(text, first_status_, first_log_); }, 20.0))
+    EXPECT_TRUE(waitUntil([&] { return camera().hasSaid(text, first_status_, first_log_); }, 20.0 * kSlowness))
         << text << " was not said";
   }
 

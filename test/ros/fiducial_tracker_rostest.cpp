@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The fiducial tracker as a nodelet: its pose agrees with the simulator's truth; bad pictures are said and survived.
+#include "slowness.h"
+
 #include "depth_object_tracker/ros/message_conversions.h"
 
 #include <depth_object_tracker/TrackerStatus.h>
@@ -21,7 +23,7 @@
 namespace depth_object_tracker {
 namespace {
 
-const ros::Duration kPatience(60.0);
+const ros::Duration kPatience(60.0 * kSlowness);
 
 Eigen::Vector3d position(const geometry_msgs::Pose& pose) {
   return {pose.position.x, pose.position.y, pose.position.z};

@@ -107,15 +107,15 @@ TEST(LiveReconfigure, SetsEachOfARunningTracker) {
     EXPECT_TRUE(ros::param::get(std::string(kName) + "/tracker/" + name, value)) << name;
     EXPECT_EQ(value, legal) << name;
   }
-  EXPECT_TRUE(waitUntil([&] { return hasLogged(logs, "num_particles: 40 -> 55"); }, 10.0));
+  EXPECT_TRUE(waitUntil([&] { return hasLogged(logs, "num_particles: 40 -> 55"); }, 10.0 * kSlowness));
   const auto has55 = [&] { return tracker.step().num_particles == 55u; };
-  EXPECT_TRUE(waitUntil(has55, 10.0));
+  EXPECT_TRUE(waitUntil(has55, 10.0 * kSlowness));
 
   EXPECT_EQ(valueIn(set("num_particles", -5), "num_particles"), 1) << "out of range: the nearest end, as usual there";
   set("num_particles", 40);
   set("frame_budget_s", 1e-5);
   const auto saves = [&] { return tracker.step().num_particles < 40u; };
-  EXPECT_TRUE(waitUntil(saves, 10.0)) << "a budget that cannot be kept";
+  EXPECT_TRUE(waitUntil(saves, 10.0 * kSlowness)) << "a budget that cannot be kept";
 
   // What was set outlives the object.
   LoadObject call;
@@ -123,7 +123,7 @@ TEST(LiveReconfigure, SetsEachOfARunningTracker) {
   ASSERT_TRUE(call.response.success) << call.response.message;
   ASSERT_TRUE(tracker.initialise());
   const auto hasKept = [&] { return tracker.step().num_particles == 40u || tracker.status()->num_particles < 40u; };
-  EXPECT_TRUE(waitUntil(hasKept, 10.0));
+  EXPECT_TRUE(waitUntil(hasKept, 10.0 * kSlowness));
 }
 
 }  // namespace

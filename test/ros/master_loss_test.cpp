@@ -41,17 +41,18 @@ TEST(MasterLoss, TrackingGoesOn) {
     image->header.stamp = info->header.stamp = ros::Time(1000.0 + frame / 30.0);
     infos.publish(info);
     images.publish(image);
-    return waitUntil([&] { return poses.newest() && poses.newest()->header.stamp == image->header.stamp; }, 10.0);
+    return waitUntil([&] { return poses.newest() && poses.newest()->header.stamp == image->header.stamp; },
+                     10.0 * kSlowness);
   };
   InitializeTracker call;
   call.request.pose.header.frame_id = "camera_depth_optical_frame";
   call.request.pose.pose.pose = toPoseMessage(poseAt(1));
   ASSERT_TRUE(ros::service::call("/tracker/initialize", call));
-  ASSERT_TRUE(waitUntil(send, 30.0));
+  ASSERT_TRUE(waitUntil(send, 30.0 * kSlowness));
   for (int i = 0; i < 10; ++i) EXPECT_TRUE(send()) << "with the master";
 
   ASSERT_EQ(kill(master, SIGKILL), 0);
-  ASSERT_TRUE(waitUntil([] { return !ros::master::check(); }, 30.0));
+  ASSERT_TRUE(waitUntil([] { return !ros::master::check(); }, 30.0 * kSlowness));
   int num_good = 0;
   for (int i = 0; i < 120; ++i) {
     if (!send()) continue;

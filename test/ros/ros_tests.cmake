@@ -28,15 +28,13 @@ function(add_ros_test name)
   endif()
   add_test(NAME ${name}
     COMMAND ${CATKIN_DEVEL_PREFIX}/env.sh rostest ${CMAKE_CURRENT_SOURCE_DIR}/ros/${name}.test)
-  set_tests_properties(${name} PROPERTIES TIMEOUT 600
-    ENVIRONMENT "PATH=/usr/bin:$ENV{PATH};ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;ROS_HOSTNAME=localhost")
+  set_ros_test(${name} 600)
 endfunction()
 
 # add_script_test(NAME COMMAND...): a program that needs the devel space but no master.
 function(add_script_test name)
   add_test(NAME ${name} COMMAND ${CATKIN_DEVEL_PREFIX}/env.sh ${ARGN})
-  set_tests_properties(${name} PROPERTIES TIMEOUT 300
-    ENVIRONMENT "PATH=/usr/bin:$ENV{PATH};ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;ROS_HOSTNAME=localhost")
+  set_ros_test(${name} 300)
 endfunction()
 
 add_script_test(launch_files_test
@@ -45,10 +43,11 @@ add_script_test(launch_files_test
 add_script_test(object_list_test /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/ros/check_object_list.py)
 add_executable(master_loss_test ros/master_loss_test.cpp)
 target_link_libraries(master_loss_test PRIVATE depth_object_tracker_ros depth_object_tracker_warnings GTest::gtest)
+target_include_directories(master_loss_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/support)
 target_compile_definitions(master_loss_test PRIVATE PROJECT_SOURCE_FOLDER="${PROJECT_SOURCE_DIR}")
 add_script_test(tracker_outlives_the_master ${CMAKE_CURRENT_SOURCE_DIR}/ros/check_master_loss.py
   $<TARGET_FILE:tracker_node> $<TARGET_FILE:master_loss_test> ${PROJECT_SOURCE_DIR}/meshes/bracket.obj)
-set_tests_properties(tracker_outlives_the_master PROPERTIES TIMEOUT 400)
+set_ros_test(tracker_outlives_the_master 400)
 
 find_program(ROSTEST_PROGRAM rostest)
 if(ROSTEST_PROGRAM)
@@ -62,7 +61,7 @@ if(ROSTEST_PROGRAM)
   target_link_libraries(test_fault_injector PRIVATE depth_object_tracker_warnings depth_object_tracker_ros)
   add_ros_test(fault_injection_rostest ros/fault_injection_rostest.cpp)
   add_dependencies(fault_injection_rostest test_fault_injector)
-  set_tests_properties(fault_injection_rostest PROPERTIES TIMEOUT 1000)
+  set_ros_test(fault_injection_rostest 1000)
   add_ros_test(tracker_bad_start_rostest ros/tracker_bad_start_rostest.cpp)
   add_ros_test(tracker_diagnostics_rostest ros/tracker_diagnostics_rostest.cpp)
   add_ros_test(tracker_options_rostest ros/tracker_options_rostest.cpp)
@@ -84,7 +83,7 @@ if(ROSTEST_PROGRAM)
   add_ros_test(many_search_rostest ros/many_search_rostest.cpp)
   target_link_libraries(many_search_rostest PRIVATE depth_object_tracker_simulator)
   add_ros_test(load_cycles_rostest ros/load_cycles_rostest.cpp)
-  set_tests_properties(load_cycles_rostest PROPERTIES TIMEOUT 1000)
+  set_ros_test(load_cycles_rostest 1000)
   add_ros_test(relay_joint_commands_rostest)
   if(WITH_FIDUCIALS)
     add_ros_test(fiducial_tracker_rostest ros/fiducial_tracker_rostest.cpp)

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "depth_messages.h"
+#include "slowness.h"
 
 #include <depth_object_tracker/InitializeTracker.h>
 #include <depth_object_tracker/TrackerStatus.h>
@@ -24,7 +25,7 @@
 
 namespace depth_object_tracker {
 
-constexpr double kPatienceS = 60.0;  // wall clock; only a hang waits that long, however loaded the machine
+constexpr double kPatienceS = 60.0 * kSlowness;  // wall clock; only a hang waits that long, however loaded the machine
 
 /// Calls `done` until it is true; false when that never happens.
 inline bool waitUntil(const std::function<bool()>& done, double timeout_s = kPatienceS) {
@@ -150,7 +151,7 @@ class TrackerHarness {
     return false;
   }
   bool waitForLog(const std::vector<std::string>& parts) const {
-    return waitUntil([&] { return hasLogged(parts); }, 10.0);
+    return waitUntil([&] { return hasLogged(parts); }, 10.0 * kSlowness);
   }
 
   /// Waits for a status without an image.

@@ -40,7 +40,7 @@ TEST(ZeroCopy, TheLikelihoodReadsWhatTheCameraNodeletPublished) {
   const auto read = addresses.messages();
   for (std::size_t i = read.size() - 5; i < read.size(); ++i) {
     const std::uint64_t address = read[i]->data;
-    EXPECT_TRUE(waitUntil([&] { return wasPublishedAt(address); }, 10.0))
+    EXPECT_TRUE(waitUntil([&] { return wasPublishedAt(address); }, 10.0 * kSlowness))
         << "image " << i << " was read at " << address << ", where none was published";
   }
   loader.unload("/simulator");

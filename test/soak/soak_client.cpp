@@ -2,6 +2,7 @@
 #include "soak_client.h"
 
 #include "../ros/depth_messages.h"
+#include "slowness.h"
 
 #include "depth_object_tracker/ros/message_conversions.h"
 
@@ -19,7 +20,7 @@ namespace depth_object_tracker {
 namespace {
 
 constexpr const char* kFrame = "camera_depth_optical_frame";
-constexpr std::chrono::seconds kPatience{60};
+const std::chrono::duration<double> kPatience(60.0 * kSlowness);
 
 }  // namespace
 

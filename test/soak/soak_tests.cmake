@@ -10,8 +10,7 @@ target_link_libraries(tracker_soak_rostest PRIVATE depth_object_tracker_ros dept
 add_dependencies(tracker_soak_rostest depth_object_tracker_nodelets)
 function(add_soak_test name)
   add_test(NAME ${name} COMMAND ${CATKIN_DEVEL_PREFIX}/env.sh rostest ${CMAKE_CURRENT_SOURCE_DIR}/soak/${name}.test)
-  set_tests_properties(${name} PROPERTIES TIMEOUT 600
-    ENVIRONMENT "PATH=/usr/bin:$ENV{PATH};ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;ROS_HOSTNAME=localhost")
+  set_ros_test(${name} 600)
 endfunction()
 
 add_soak_test(tracker_soak_rostest)

@@ -86,7 +86,6 @@ void printLatency(std::vector<float> latencies) {
 
 TEST(TrackerSoak, NothingLeaksAndNothingHangs) {
   const int frames = ros::param::param("~frames", 1000);
-  const double max_growth = ros::param::param("~max_growth", 0.02);  // of resident memory in the last half
   ros::param::set(std::string(kName) + "/mesh", SoakScene::meshUri(0));
   ros::param::set(std::string(kName) + "/tracker/num_particles", 16);
   ros::param::set(std::string(kName) + "/tracker/target_model_pixels", 150);
@@ -137,7 +136,9 @@ TEST(TrackerSoak, NothingLeaksAndNothingHangs) {
   std::printf("handles %zu -> %zu, threads %zu -> %zu (first fifth -> end)\n", early.handles, end.handles,
               early.threads, end.threads);
   printLatency(latencies);
-  EXPECT_LE(growth, max_growth);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // sanitizers keep what is freed, on purpose
+  EXPECT_LE(growth, ros::param::param("~max_growth", 0.02));         // of resident memory in the last half
+#endif
   EXPECT_LE(end.handles, early.handles + 2);  // connections to the master come and go
   EXPECT_LE(end.threads, early.threads);
   EXPECT_GT(states[TrackerStatus::TRACKING], frames / 2);

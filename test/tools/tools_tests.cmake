@@ -46,12 +46,12 @@ if(TARGET scene_to_bag)
   add_test(NAME replay_launch_test
     COMMAND ${CATKIN_DEVEL_PREFIX}/env.sh ${CMAKE_CURRENT_SOURCE_DIR}/tools/replay_simulated
       ${PROJECT_SOURCE_DIR}/meshes/drill.obj)
-  set_tests_properties(replay_launch_test PROPERTIES TIMEOUT 300 RUN_SERIAL TRUE
-    ENVIRONMENT "ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;ROS_HOSTNAME=localhost")
+  set_tests_properties(replay_launch_test PROPERTIES RUN_SERIAL TRUE)
+  set_ros_test(replay_launch_test 300)
 
   add_test(NAME replay_loop_rostest
     COMMAND ${CATKIN_DEVEL_PREFIX}/env.sh ${CMAKE_CURRENT_SOURCE_DIR}/tools/replay_looped
       ${PROJECT_SOURCE_DIR}/meshes/drill.obj)
-  set_tests_properties(replay_loop_rostest PROPERTIES TIMEOUT 300 RUN_SERIAL TRUE
-    ENVIRONMENT "ROS_HOME=${CMAKE_BINARY_DIR}/ros_home;ROS_HOSTNAME=localhost")
+  set_tests_properties(replay_loop_rostest PROPERTIES RUN_SERIAL TRUE)
+  set_ros_test(replay_loop_rostest 300)
 endif()
