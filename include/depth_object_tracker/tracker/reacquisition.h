@@ -19,7 +19,7 @@ struct SearchRegion {
   bool is_known = true;                   ///< false: anywhere in the image
   bool everywhere = false;                ///< is_known: in the rest of the image, too, else in every third one
   bool on_table = false;                  ///< not is_known: it rests on a plane that the image shows
-  double unseen_s = 0.0;
+  double unseen_s = 0.0;                  ///< since it was seen last
   bool was_followed = false;              ///< surely, until it was seen no more
   KnownOccluders* occluders = nullptr;    ///< the object is not where one of them is seen; null = none
 };
