@@ -117,7 +117,7 @@ std::vector<Pose> Reacquisition::survivorPoses() const {
 }
 
 double Reacquisition::evidenceBefore(const Pose& T_camera_centre) const {
-  constexpr double kMostNat = 3.0;  // many images of one arm say no more than a few
+  constexpr double kMostNat = 5.0;  // many images of one arm say no more than a few
   double most = 0.0;
   for (const Survivor& other : survivors_) {
     const double moved_m = (other.T_camera_centre.translation() - T_camera_centre.translation()).norm();
