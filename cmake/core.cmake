@@ -49,6 +49,7 @@ add_library(depth_object_tracker_core SHARED
   src/render/tile_rasterizer.cpp
   src/render/tile_renderer.cpp
   src/tracker/angle_belief.cpp
+  src/tracker/distractors.cpp
   src/tracker/doubt.cpp
   src/tracker/estimate_board.cpp
   src/tracker/frame_budget.cpp

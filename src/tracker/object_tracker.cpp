@@ -63,7 +63,8 @@ ObjectTracker::Implementation::Implementation(ObjectModel object_model, const Tr
       look_alikes(findLookAlikes(object.mesh, centre_object, aboutCentre(object.symmetries, centre_object))),
       free_turn(look_alikes.lookAlikes().axes),
       reacquisition(
-          std::make_unique<PoseFinder>(shape, object.mesh, diameter_m, config.pixel, config.filter.seed, pool)) {}
+          std::make_unique<PoseFinder>(shape, object.mesh, diameter_m, config.pixel, config.filter.seed, pool),
+          Distractors(object.mesh, centre_object)) {}
 
 ObjectTracker::ObjectTracker(ObjectModel object, const TrackerConfig& config)
     : implementation_(std::make_unique<Implementation>(std::move(object), config)) {}
@@ -139,6 +140,7 @@ void ObjectTracker::moveCamera(const Pose& T_now_before) {
   self.hand_velocity = rotated(self.hand_velocity, R_now_before);
   if (self.hidden_start) self.hidden_start->T_camera_centre = T_now_before * self.hidden_start->T_camera_centre;
   self.last_mean.mean = T_now_before * self.last_mean.mean;
+  self.reacquisition.moveCamera(T_now_before);
   self.last_mean.covariance = rotated(self.last_mean.covariance, R_now_before);
   self.result.T_camera_object = T_now_before * self.result.T_camera_object;
   self.result.covariance = rotated(self.result.covariance, R_now_before);

@@ -334,6 +334,18 @@ std::vector<Pose> PoseFinder::distinctBest(const std::vector<Ranked>& ranked, in
   return best;
 }
 
+std::vector<Pose> PoseFinder::bestOfPlaces(const std::vector<Ranked>& ranked, int count, double apart_m) {
+  std::vector<Pose> best;
+  for (const Ranked& candidate : ranked) {
+    if (static_cast<int>(best.size()) == count || !std::isfinite(candidate.quality)) break;
+    const bool known = std::any_of(best.begin(), best.end(), [&](const Pose& other) {
+      return (candidate.pose.translation() - other.translation()).norm() < apart_m;
+    });
+    if (!known) best.push_back(candidate.pose);
+  }
+  return best;
+}
+
 void PoseFinder::climbAll(DepthLikelihood& likelihood, const ClimbSchedule& schedule, std::vector<Pose>& poses) const {
   const std::size_t count = poses.size();
   poses.resize(2 * count);
@@ -357,13 +369,16 @@ std::vector<FoundPose> PoseFinder::climbBest(const std::vector<Pose>& drawn, con
     const double quality = fitQuality(counted);
     return by_evidence && quality > 0.0 ? quality * std::sqrt(counted.matching) : quality;
   };
+  const auto distinct = [&](const std::vector<Ranked>& ranked, int count, double apart_m) {
+    return effort.apart_m > 0.0 ? bestOfPlaces(ranked, count, effort.apart_m) : distinctBest(ranked, count, apart_m);
+  };
   std::vector<Pose> poses = distinctBest(rank(drawn, fit), effort.climbed, 0.0);
   climbAll(coarse_, {0.02, 0.006, 0}, poses);
-  poses = distinctBest(rank(poses, value(coarse_, 0.008)), effort.refined * 4, 0.03);
+  poses = distinct(rank(poses, value(coarse_, 0.008)), effort.refined * 4, 0.03);
   climbAll(coarse_, {0.012, 0.004, 3}, poses);
-  poses = distinctBest(rank(poses, value(coarse_, 0.004)), effort.refined, 0.02);
+  poses = distinct(rank(poses, value(coarse_, 0.004)), effort.refined, 0.02);
   climbAll(fine_, {0.006, 0.003, 2}, poses);
-  poses = distinctBest(rank(poses, value(fine_, 0.001)), kFinalCandidates, 0.005);
+  poses = distinct(rank(poses, value(fine_, 0.001)), std::max(effort.refined / 2, kFinalCandidates), 0.005);
   climbAll(fine_, {0.002, 0.0015, 8}, poses);
   std::vector<FoundPose> found;
   for (const Pose& pose : poses) found.push_back(judge(pose));

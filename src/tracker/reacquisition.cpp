@@ -11,12 +11,15 @@ namespace {
 
 constexpr SearchEffort kAround{0, 3000, 400, 60, 16};
 constexpr SearchEffort kEverywhere{200, 2000, 200, 100, 16};
+constexpr SearchEffort kOfDistractors{200, 2000, 400, 200, 24, 0.06};
 constexpr SearchEffort kEverywhereAtTheStart{1000, 20000, 2000, 800, 40};
 constexpr SearchEffort kOnTable{0, 20000, 2000, 400, 24};
 constexpr SearchEffort kOfSurvivors{0, 60, 60, 20, 10};
 constexpr std::size_t kSurvivors = 6;
 constexpr double kSameM = 0.05, kSameRad = 0.5;  // from image to image
+constexpr double kSureNat = 5.0;                 // log odds of an object that stands out
 constexpr double kPlacesToHide = 0.25;           // of those where the object may be
+constexpr double kLeastOfDistractors = -12.0;    // log odds [nat] in full view; half hidden, they look more alike
 
 Vector6d survivorVariances() {
   Vector6d variances;
@@ -25,12 +28,15 @@ Vector6d survivorVariances() {
   return variances;
 }
 
-/// Of poses that fit about as well as the first, the one nearest to what is expected.
-const FoundPose& likeliestOfTheBest(const std::vector<FoundPose>& found, const SearchRegion& region) {
-  constexpr double kAboutAsWell = 0.06;
+/// Of poses that fit about as well as the first, and are about as sure, the one nearest to what is expected.
+/// @param margin [nat] of a pose: how much surer it is than it must be.
+template <typename Margin>
+const FoundPose& likeliestOfTheBest(const std::vector<FoundPose>& found, const SearchRegion& region,
+                                    const Margin& margin) {
+  constexpr double kAboutAsWell = 0.06, kLessSure = 2.0;
   const FoundPose* likeliest = &found.front();
   for (const FoundPose& one : found) {
-    if (one.quality < found.front().quality - kAboutAsWell) continue;
+    if (one.quality < found.front().quality - kAboutAsWell || margin(one) < margin(found.front()) - kLessSure) continue;
     if (squaredDistance(one.T_camera_centre, region) < squaredDistance(likeliest->T_camera_centre, region)) {
       likeliest = &one;
     }
@@ -80,13 +86,16 @@ double neededEvidence(bool is_hidden, double remoteness) {
 /// What fits by chance does so in the next image, too: only what is better than this adds up. What fits as well as the
 /// object does, where it is expected, is hardly anything else.
 /// @param score 1 = as well as the object usually does. @param visible share: some little thing fits anywhere.
-double worthFollowing(bool is_hidden, double remoteness, double score, double visible) {
+/// @param usual_nat log odds that the object itself had where it was followed: a can in a fist never has many.
+double worthFollowing(bool is_hidden, double remoteness, double score, double visible, double usual_nat) {
   constexpr double kMoreIfHidden = 0.5, kLessIfItFits = 2.5, kFits = 0.97, kFitsNot = 0.94, kNear = 0.3;
   constexpr double kLittle = 0.3, kMuch = 0.6;
   const double fit = std::clamp((score - kFitsNot) / (kFits - kFitsNot), 0.0, 1.0) *
                      std::clamp((visible - kLittle) / (kMuch - kLittle), 0.0, 1.0);
   const double nearness = std::max(0.0, 1.0 - remoteness / kNear);
-  return between(0.3, 1.2 + (is_hidden ? kMoreIfHidden : 0.0), remoteness) - kLessIfItFits * fit * nearness;
+  constexpr double kUsualNear = 0.3, kLeastNear = -1.5, kLessThanUsual = 2.0;
+  const double near = std::clamp(usual_nat - kLessThanUsual, kLeastNear, kUsualNear);
+  return between(near, 1.2 + (is_hidden ? kMoreIfHidden : 0.0), remoteness) - kLessIfItFits * fit * nearness;
 }
 
 /// Evidence [nat] against a pose to which an object that was surely followed could hardly have moved; no more than that
@@ -128,6 +137,7 @@ double Reacquisition::evidenceBefore(const Pose& T_camera_centre) const {
 
 std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const PinholeCamera& camera,
                                           const SearchRegion& region) {
+  if (region.is_known) findDistractors();
   const double expected_m = std::max(0.2, region.T_camera_centre.translation().z());
   finder_->setImage(depth, camera, std::clamp(region.seen_distance_m, expected_m, 2.0 * expected_m), region.occluders);
   found_.clear();
@@ -151,7 +161,9 @@ std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const Pin
   };
   const auto evidence = [&](const FoundPose& one) {
     return evidenceBefore(one.T_camera_centre) + logOdds(one) -
-           worthFollowing(is_hidden, remote(one), score(one), one.assessment.visibleShare());
+           distractors_.against(one.T_camera_centre, region.T_camera_centre, region.memory_s) -
+           worthFollowing(is_hidden, remote(one), score(one), one.assessment.visibleShare(),
+                          usual_log_odds_.value_or(kSureNat));
   };
   const auto margin = [&](const FoundPose& one) {
     const double out_of_reach = is_hidden && region.was_followed ? outOfReach(one.T_camera_centre, region) : 0.0;
@@ -166,7 +178,20 @@ std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const Pin
   }
   survivors_ = std::move(survivors);
   if (!is_sure) return std::nullopt;
-  return finder_->settle(likeliestOfTheBest(found_, region), region.T_camera_centre, region.variances).T_camera_centre;
+  return finder_->settle(likeliestOfTheBest(found_, region, margin), region.T_camera_centre, region.variances)
+      .T_camera_centre;
+}
+
+/// Takes some time, once after each time that the object was in view.
+void Reacquisition::findDistractors() {
+  const std::optional<Distractors::Scene> scene = distractors_.unsearched();
+  if (!scene) return;
+  finder_->setImage(scene->depth, scene->camera, std::max(0.2, scene->T_camera_centre.translation().z()));
+  std::vector<Pose> poses;
+  for (const FoundPose& one : finder_->searchEverywhere(kOfDistractors)) {
+    if (logOdds(one) > kLeastOfDistractors) poses.push_back(one.T_camera_centre);
+  }
+  distractors_.found(poses);
 }
 
 /// Of the places where the object may be, those at which something in front would hide it.
@@ -196,13 +221,41 @@ double Reacquisition::logOdds(const FoundPose& found) const {
 
 double Reacquisition::learn(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre) {
   constexpr double kUp = 0.3, kDown = 0.1;  // parts may be hidden, or seen from a side where the mesh is worse
+  constexpr double kOfLogOdds = 0.2;
   finder_->setImage(depth, camera, std::max(0.2, T_camera_centre.translation().z()));
   const PoseAssessment assessment = finder_->judge(T_camera_centre).assessment;
   if (!(assessment.expected > 0.0)) return -std::numeric_limits<double>::infinity();
   const double score = std::clamp(assessment.achieved / assessment.expected, 0.5, 1.0);
   if (!usual_score_) usual_score_ = score;
   *usual_score_ += (score > *usual_score_ ? kUp : kDown) * (score - *usual_score_);
-  return findLogOdds(assessment, *usual_score_);
+  const double log_odds = findLogOdds(assessment, *usual_score_);
+  usual_log_odds_ = usual_log_odds_.value_or(log_odds) + kOfLogOdds * (log_odds - usual_log_odds_.value_or(log_odds));
+  return log_odds;
+}
+
+double Reacquisition::judge(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre) {
+  finder_->setImage(depth, camera, std::max(0.2, T_camera_centre.translation().z()));
+  return logOdds(finder_->judge(T_camera_centre));
+}
+
+std::optional<Pose> Reacquisition::findGiven(const DepthImageView& depth, const PinholeCamera& camera,
+                                             const Pose& T_camera_centre, const Pose& given,
+                                             const Vector6d& variances) {
+  constexpr double kSurerNat = 1.0, kLeastNat = -2.5;
+  finder_->setImage(depth, camera, std::max(0.2, given.translation().z()));
+  const auto log_posterior = [&](const FoundPose& one) {
+    return logOdds(one) - 0.5 * difference(one.T_camera_centre, given).cwiseAbs2().cwiseQuotient(variances).sum();
+  };
+  const FoundPose now = finder_->judge(T_camera_centre);
+  const double enough = std::max(kLeastNat, logOdds(now) + kSurerNat);
+  std::optional<Pose> best;
+  double most = log_posterior(now) + kSurerNat;
+  for (const FoundPose& one : finder_->searchAround({given}, variances, kAround)) {
+    if (log_posterior(one) <= most || logOdds(one) <= enough) continue;
+    most = log_posterior(one);
+    best = one.T_camera_centre;
+  }
+  return best;
 }
 
 void Reacquisition::countSameWinner(const Pose& T_camera_centre) {
@@ -262,17 +315,19 @@ std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const
                      [](const FoundPose& a, const FoundPose& b) { return a.quality > b.quality; });
   }
   const FoundPose now = finder_->judge(T_camera_centre);
-  constexpr double kExplainsMore = 1.1;
+  constexpr double kExplainsMore = 1.1, kLeastNat = -3.0;
   if (!found_.empty() && others.everywhere) {
     constexpr double kMuchLikelier = 2.0, kSureByItself = 2.0, kLikelier = 1.0, kFarLikelier = 6.0;
     constexpr double kOddNat = -2.5, kLikelyByItself = 0.5, kLikelierThanOdd = 4.0;
-    const auto best = std::max_element(found_.begin(), found_.end(), [this](const FoundPose& a, const FoundPose& b) {
-      return logOdds(a) < logOdds(b);
-    });
+    const auto surer = [&](const FoundPose& one) {
+      return logOdds(one) - distractors_.against(one.T_camera_centre, T_camera_centre, others.memory_s);
+    };
+    const auto best = std::max_element(
+        found_.begin(), found_.end(), [&surer](const FoundPose& a, const FoundPose& b) { return surer(a) < surer(b); });
     const bool is_here = (best->T_camera_centre.translation() - T_camera_centre.translation()).norm() < kSameM;
     const double more = best->assessment.log_likelihood / std::max(1.0, now.assessment.log_likelihood);
     const double far = is_here ? 0.0 : unreachable(*best, T_camera_centre, others);
-    const double odds = logOdds(*best) - far, odds_now = logOdds(now);
+    const double odds = surer(*best) - far, odds_now = logOdds(now);
     const bool is_odd = others.is_unproven && odds_now < kOddNat;
     const bool explains_more =
         more > (is_here ? 1.0 : kExplainsMore) || odds > odds_now + (is_odd ? kLikelierThanOdd : kFarLikelier);
@@ -284,8 +339,8 @@ std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const
   }
   if (!found_.empty() && others.by_likelihood) {
     const FoundPose& most = mostExplaining(found_);
-    const bool is_better =
-        most.quality > now.quality && most.assessment.log_likelihood > kExplainsMore * now.assessment.log_likelihood;
+    const bool is_better = most.quality > now.quality && logOdds(most) > std::min(kLeastNat, logOdds(now)) &&
+                           most.assessment.log_likelihood > kExplainsMore * now.assessment.log_likelihood;
     if (is_better) return most.T_camera_centre;
     return std::nullopt;
   }

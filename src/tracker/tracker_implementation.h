@@ -82,6 +82,7 @@ class ObjectTracker::Implementation {
   double since_check_s = kLongAgoS;  // since its pose was compared with others
   double since_sure_s = kLongAgoS;   // since the pose was surely the object's
   Doubt doubt;
+  double since_remembered_s = kLongAgoS;   // all that is in view
   double since_learnt_s = kLongAgoS;       // how well the object fits where it is seen
   double initialising_s = 0.0;             // since an initial pose that does not fit yet
   std::optional<ProcessStep> step_in_use;  // of the last image that was looked at
@@ -124,6 +125,8 @@ class ObjectTracker::Implementation {
   PoseAssessment assess(const FilterEstimate& estimate);
   static bool fits(const PoseAssessment& assessment);
   bool seesNothing(const PoseAssessment& assessment) const;
+  /// While the object vanishes behind something, to what remains in view: the arm that holds it.
+  bool leaps(const DepthImageView& depth, const FilterEstimate& estimate);
   /// The paper's filter neither searches nor holds.
   bool mayReacquire() const { return config.filter.proposal == Proposal::kInformed; }
   /// Starts the filter anew where the object is seen. @return false when it is not.

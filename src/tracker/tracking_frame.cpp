@@ -67,8 +67,17 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
     around_given = reacquisition.lookAround(depth, camera, given, givenPoseVariances(given_variances));
     estimate = look(time.dt_s, control);
     assessment = assess(estimate);
+    if (!fits(assessment)) {
+      const std::optional<Pose> nearby =
+          reacquisition.findGiven(depth, camera, estimate.pose.mean, given, given_variances);
+      if (nearby) {
+        startAt(*nearby);
+        estimate = look(time.dt_s, control);
+        assessment = assess(estimate);
+      }
+    }
   }
-  if (!is_blind && seesNothing(assessment)) {
+  if (!is_blind && (seesNothing(assessment) || (!past_hand && leaps(depth, estimate)))) {
     // The update is not to be trusted: what was seen is not the object.
     filter.undo();
     filter.stopMotion();
@@ -204,6 +213,7 @@ void ObjectTracker::Implementation::rememberFit(const FilterEstimate& estimate, 
   reacquired_s += dt_s;
   since_check_s += dt_s;
   since_sure_s += dt_s;
+  since_remembered_s += dt_s;
   // A pose that had to be searched is not one that was followed.
   moved_s = status.state() == TrackerState::kInitializing ? 0.0 : moved_s + dt_s;
   last_mean = estimate.pose;

@@ -10,7 +10,7 @@ namespace {
 constexpr double kSearchEverywhereAfterS = 3.0;
 constexpr double kSettledAfterS = 3.0;
 constexpr double kUsualTurnRad = 0.25;
-constexpr double kTrustedForS = 2.0, kSureNat = 2.0;
+constexpr double kTrustedForS = 2.0, kSureNat = 2.0, kNotOddNat = -3.0;
 constexpr double kDoubtfulAfterFindS = 0.7;
 constexpr double kDoubtedAtFirstS = 0.12, kBetweenChecksS = 0.05;  // in every image, and then in some
 constexpr double kDoubtfulReachS = 1.5;                            // as far as after this long unseen, at most
@@ -56,6 +56,7 @@ bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, doubl
   region.everywhere = status.state() == TrackerState::kLost || status.state() == TrackerState::kInitializing ||
                       status.misfit() || unseen_s > kSearchEverywhereAfterS;
   region.unseen_s = unseen_s + dt_s;
+  region.memory_s = since_remembered_s;
   region.was_followed = since_sure_s - unseen_s < kTrustedForS;
   region.occluders = known_occluders;
   const std::optional<Pose> found = reacquisition.search(depth, camera_in_use, region);
@@ -87,6 +88,7 @@ bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth
   const bool just_found = reacquired_s < kDoubtfulAfterFindS;
   OtherPoses others;
   others.occluders = known_occluders;
+  others.memory_s = since_remembered_s;
   others.is_unproven = doubt.isUnproven();
   others.everywhere = look == Doubt::Look::kEverywhere;
   others.by_likelihood = just_found || others.everywhere;
@@ -99,6 +101,18 @@ bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth
   if (better) startAt(*better);
   doubt.looked(look);
   return better.has_value();
+}
+
+bool ObjectTracker::Implementation::leaps(const DepthImageView& depth, const FilterEstimate& estimate) {
+  constexpr double kLittleVisible = 0.3, kFarM = 0.015, kFarInHandM = 0.008, kLeastNat = -2.5;
+  const bool was_followed = status.state() == TrackerState::kTracking || status.state() == TrackerState::kOccluded;
+  if (!mayReacquire() || !was_followed || !step_in_use) return false;
+  const bool vanishes = status.visibleFraction() < kLittleVisible && since_remembered_s < kTrustedForS;
+  if (!vanishes && !follows_hand) return false;
+  const Pose predicted = step_in_use->predict(last_mean.mean, last_velocity);
+  const double moved_m = (estimate.pose.mean.translation() - predicted.translation()).norm();
+  return moved_m > (follows_hand ? kFarInHandM : kFarM) &&
+         reacquisition.judge(depth, camera_in_use, estimate.pose.mean) < kLeastNat;
 }
 
 void ObjectTracker::Implementation::turnToLookAlike(FilterEstimate& estimate, PoseAssessment& assessment, double dt_s) {
@@ -160,6 +174,11 @@ void ObjectTracker::Implementation::learnFit(const DepthImageView& depth, double
   since_learnt_s = 0.0;
   const double log_odds = reacquisition.learn(depth, camera_in_use, last_mean.mean);
   doubt.judged(log_odds);
+  constexpr double kInPlainView = 0.4;
+  if (!doubt.isUnproven() && log_odds > kNotOddNat && status.visibleFraction() > kInPlainView) {
+    reacquisition.remember(depth, camera_in_use, last_mean.mean);
+    since_remembered_s = 0.0;
+  }
   if (log_odds > kSureNat) since_sure_s = 0.0;
 }
 

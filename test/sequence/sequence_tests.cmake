@@ -9,6 +9,7 @@ add_tracker_test(tracker_sequence_tests
     sequence/look_alikes_test.cpp
     sequence/many_objects_test.cpp
     sequence/motion_test.cpp
+    sequence/own_arm_test.cpp
     sequence/reacquisition_test.cpp
     sequence/score_test.cpp
     sequence/scripted_scene.cpp

@@ -29,6 +29,7 @@ add_tracker_test(filter_unit_tests SOURCES
   unit/filter_worker_pool_test.cpp)
 add_tracker_test(model_unit_tests SOURCES
   unit/angle_belief_test.cpp
+  unit/distractors_test.cpp
   unit/doubt_test.cpp
   unit/illusions_test.cpp
   unit/model_occlusion_chain_test.cpp

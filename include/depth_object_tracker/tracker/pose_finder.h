@@ -39,6 +39,9 @@ struct SearchEffort {
   int rendered = 0;    ///< of which rendered on few pixels
   int climbed = 0;     ///< of which climbed
   int refined = 0;     ///< of which climbed on more pixels
+  /// The ones that are refined lie this far apart, however they are turned; 0 = they differ, but one place may hold
+  /// several.
+  double apart_m = 0.0;
 };
 
 class PoseFinder {
@@ -89,6 +92,7 @@ class PoseFinder {
   template <typename Judge>
   std::vector<Ranked> rank(const std::vector<Pose>& poses, const Judge& judge) const;
   std::vector<Pose> distinctBest(const std::vector<Ranked>& ranked, int count, double apart_m) const;
+  static std::vector<Pose> bestOfPlaces(const std::vector<Ranked>& ranked, int count, double apart_m);
   /// Appends where the poses climb to. They themselves stay: with a broad view, a hand beside the object pulls it away.
   void climbAll(DepthLikelihood& likelihood, const ClimbSchedule& schedule, std::vector<Pose>& poses) const;
   std::vector<FoundPose> climbBest(const std::vector<Pose>& poses, const SearchEffort& effort, bool by_evidence);

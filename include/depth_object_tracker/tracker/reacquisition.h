@@ -2,6 +2,7 @@
 // Looks for an object that is hidden or lost, image after image, until it is surely seen again.
 #pragma once
 
+#include "depth_object_tracker/tracker/distractors.h"
 #include "depth_object_tracker/tracker/pose_finder.h"
 
 #include <memory>
@@ -21,6 +22,7 @@ struct SearchRegion {
   bool on_table = false;                  ///< not is_known: it rests on a plane that the image shows
   double unseen_s = 0.0;                  ///< since it was seen last
   bool was_followed = false;              ///< surely, until it was seen no more
+  double memory_s = 0.0;                  ///< since remember()
   KnownOccluders* occluders = nullptr;    ///< the object is not where one of them is seen; null = none
 };
 
@@ -35,12 +37,14 @@ struct OtherPoses {
   /// Of where the object may be [m^2], about an estimate that was surely followed; none = anywhere.
   std::optional<Eigen::Vector3d> reach;
   bool is_unproven = false;             ///< the estimate was found, and never surely seen since
+  double memory_s = 0.0;                ///< since remember()
   KnownOccluders* occluders = nullptr;  ///< the object is not where one of them is seen; null = none
 };
 
 class Reacquisition {
  public:
-  explicit Reacquisition(std::unique_ptr<PoseFinder> finder) : finder_(std::move(finder)) {}
+  Reacquisition(std::unique_ptr<PoseFinder> finder, Distractors distractors)
+      : finder_(std::move(finder)), distractors_(std::move(distractors)) {}
 
   /// Forgets what was seen in earlier images.
   void restart() {
@@ -64,6 +68,21 @@ class Reacquisition {
   /// is the object than something else [nat].
   double learn(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre);
 
+  /// A pose was given, and the filter found that it fits badly elsewhere. @return where it fits better, and is
+  /// expected.
+  std::optional<Pose> findGiven(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre,
+                                const Pose& given, const Vector6d& variances);
+
+  /// How much likelier it is the object than something else [nat] that is seen at a pose.
+  double judge(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre);
+
+  /// An image in which the object is surely seen at a pose, and everything else is not the object. Cheap.
+  void remember(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre) {
+    distractors_.remember(depth, camera, T_camera_centre);
+  }
+  /// The camera's own motion since the last image.
+  void moveCamera(const Pose& T_now_before) { distractors_.moveCamera(T_now_before); }
+
   /// Score that the object has where it is surely seen, on a search's pixels.
   double usualScore() const { return usual_score_.value_or(kScoreOfAFairMesh); }
 
@@ -86,11 +105,13 @@ class Reacquisition {
   std::optional<Pose> searchAnywhere(const SearchRegion& region);
 
   double logOdds(const FoundPose& found) const;
+  void findDistractors();
   double hiddenShare(const SearchRegion& region, const DepthImageView& depth, const PinholeCamera& camera) const;
 
   static constexpr double kScoreOfAFairMesh = 0.92;
   std::unique_ptr<PoseFinder> finder_;
-  std::optional<double> usual_score_;
+  Distractors distractors_;
+  std::optional<double> usual_score_, usual_log_odds_;
   std::vector<Survivor> survivors_;
   std::vector<FoundPose> found_;
   Pose winner_ = Pose::Identity();  // of the last search with nothing known
