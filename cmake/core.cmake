@@ -75,6 +75,7 @@ add_library(depth_object_tracker_core SHARED
   src/tracker/reacquisition.cpp
   src/tracker/resolution.cpp
   src/tracker/screw_axis.cpp
+  src/tracker/search_region.cpp
   src/tracker/sparse_fit.cpp
   src/tracker/status_monitor.cpp
   src/tracker/table_draws.cpp

@@ -72,4 +72,28 @@ double findLogOdds(const PoseAssessment& assessment, double usual_score) {
          againstMerging(assessment);
 }
 
+namespace {
+
+double between(double near, double far, double remoteness) {
+  return near + (far - near) * remoteness;
+}
+
+}  // namespace
+
+double neededEvidence(bool is_hidden, double remoteness) {
+  constexpr double kMoreIfHidden = 1.5;
+  return between(0.6, 1.8 + (is_hidden ? kMoreIfHidden : 0.0), remoteness);
+}
+
+double worthFollowing(bool is_hidden, double remoteness, double score, double visible, double usual_nat) {
+  constexpr double kMoreIfHidden = 0.5, kLessIfItFits = 2.5, kFits = 0.97, kFitsNot = 0.94, kNear = 0.3;
+  constexpr double kLittle = 0.3, kMuch = 0.6;
+  const double fit = std::clamp((score - kFitsNot) / (kFits - kFitsNot), 0.0, 1.0) *
+                     std::clamp((visible - kLittle) / (kMuch - kLittle), 0.0, 1.0);
+  const double nearness = std::max(0.0, 1.0 - remoteness / kNear);
+  constexpr double kUsualNear = 0.3, kLeastNear = -1.5, kLessThanUsual = 2.0;
+  const double near = std::clamp(usual_nat - kLessThanUsual, kLeastNear, kUsualNear);
+  return between(near, 1.2 + (is_hidden ? kMoreIfHidden : 0.0), remoteness) - kLessIfItFits * fit * nearness;
+}
+
 }  // namespace depth_object_tracker

@@ -19,4 +19,15 @@ double findEvidence(const PoseAssessment& assessment);
 /// usually does is something else, and a mesh that fits badly fits badly everywhere.
 double findLogOdds(const PoseAssessment& assessment, double usual_score);
 
+/// Evidence [nat], gathered over images, that a pose needs to be taken for the object's.
+/// @param remoteness 0 where the object is expected, 1 far from it. @param is_hidden most likely it is still behind
+/// what hides it.
+double neededEvidence(bool is_hidden, double remoteness);
+
+/// What fits by chance does so in the next image, too: only what is better than this adds up. What fits as well as the
+/// object does, where it is expected, is hardly anything else.
+/// @param score 1 = as well as the object usually does. @param visible share: some little thing fits anywhere.
+/// @param usual_nat log odds that the object itself had where it was followed: a can in a fist never has many.
+double worthFollowing(bool is_hidden, double remoteness, double score, double visible, double usual_nat);
+
 }  // namespace depth_object_tracker

@@ -56,48 +56,6 @@ const FoundPose& mostExplaining(const std::vector<FoundPose>& found) {
   return *most;
 }
 
-/// 0 where the object is expected, 1 far from it.
-double remoteness(const Pose& pose, const SearchRegion& region) {
-  constexpr double kFarSquared = 12.0;
-  return std::min(1.0, squaredDistance(pose, region) / kFarSquared);
-}
-
-double between(double near, double far, double remoteness) {
-  return near + (far - near) * remoteness;
-}
-
-/// Evidence [nat] against a pose that an object which was followed until something hid it could hardly have reached.
-double outOfReach(const Pose& pose, const SearchRegion& region) {
-  constexpr double kMostNat = 4.0, kUsualNat = 2.0;
-  constexpr double kCarriedMps = 0.15;  // by somebody whom one does not see
-  const Eigen::Vector3d moved = pose.translation() - region.T_camera_centre.translation();
-  Eigen::Vector3d variances = (region.variances + region.moved_on.cwiseAbs2()).head<3>();
-  variances.array() += std::pow(kCarriedMps * region.unseen_s, 2.0);
-  return std::clamp(0.5 * moved.cwiseAbs2().cwiseQuotient(variances).sum() - kUsualNat, 0.0, kMostNat);
-}
-
-/// Evidence [nat], gathered over images, that a pose needs to be taken for the object's.
-/// @param is_hidden most likely it is still behind what hides it.
-double neededEvidence(bool is_hidden, double remoteness) {
-  constexpr double kMoreIfHidden = 1.5;
-  return between(0.6, 1.8 + (is_hidden ? kMoreIfHidden : 0.0), remoteness);
-}
-
-/// What fits by chance does so in the next image, too: only what is better than this adds up. What fits as well as the
-/// object does, where it is expected, is hardly anything else.
-/// @param score 1 = as well as the object usually does. @param visible share: some little thing fits anywhere.
-/// @param usual_nat log odds that the object itself had where it was followed: a can in a fist never has many.
-double worthFollowing(bool is_hidden, double remoteness, double score, double visible, double usual_nat) {
-  constexpr double kMoreIfHidden = 0.5, kLessIfItFits = 2.5, kFits = 0.97, kFitsNot = 0.94, kNear = 0.3;
-  constexpr double kLittle = 0.3, kMuch = 0.6;
-  const double fit = std::clamp((score - kFitsNot) / (kFits - kFitsNot), 0.0, 1.0) *
-                     std::clamp((visible - kLittle) / (kMuch - kLittle), 0.0, 1.0);
-  const double nearness = std::max(0.0, 1.0 - remoteness / kNear);
-  constexpr double kUsualNear = 0.3, kLeastNear = -1.5, kLessThanUsual = 2.0;
-  const double near = std::clamp(usual_nat - kLessThanUsual, kLeastNear, kUsualNear);
-  return between(near, 1.2 + (is_hidden ? kMoreIfHidden : 0.0), remoteness) - kLessIfItFits * fit * nearness;
-}
-
 /// Evidence [nat] against a pose to which an object that was surely followed could hardly have moved; no more than that
 /// it was something else that was followed.
 double unreachable(const FoundPose& one, const Pose& T_camera_centre, const OtherPoses& others) {
@@ -113,11 +71,6 @@ double fitOfWhatIsSeen(const PoseAssessment& assessment) {
 }
 
 }  // namespace
-
-double squaredDistance(const Pose& pose, const SearchRegion& region) {
-  const Vector6d variances = region.variances + region.moved_on.cwiseAbs2();
-  return difference(pose, region.T_camera_centre).cwiseAbs2().cwiseQuotient(variances).sum();
-}
 
 std::vector<Pose> Reacquisition::survivorPoses() const {
   std::vector<Pose> poses;
@@ -192,27 +145,6 @@ void Reacquisition::findDistractors() {
     if (logOdds(one) > kLeastOfDistractors) poses.push_back(one.T_camera_centre);
   }
   distractors_.found(poses);
-}
-
-/// Of the places where the object may be, those at which something in front would hide it.
-double Reacquisition::hiddenShare(const SearchRegion& region, const DepthImageView& depth,
-                                  const PinholeCamera& camera) const {
-  constexpr int kPlaces = 100;
-  constexpr double kInFrontM = 0.04;
-  const CounterRandom random(1);
-  const Eigen::Vector3d stddevs = (region.variances + region.moved_on.cwiseAbs2()).head<3>().cwiseSqrt();
-  int hidden = 0;
-  for (int i = 0; i < kPlaces; ++i) {
-    const Vector6d normal = random.normal6(RandomPurpose::kSearch, 0, static_cast<std::uint32_t>(i));
-    const Eigen::Vector3d place = region.T_camera_centre.translation() + stddevs.cwiseProduct(normal.head<3>());
-    if (!(place.z() > kInFrontM)) continue;
-    const Eigen::Vector2d pixel = camera.project(place);
-    const int row = static_cast<int>(std::floor(pixel.y())), col = static_cast<int>(std::floor(pixel.x()));
-    if (row < 0 || row >= depth.height || col < 0 || col >= depth.width) continue;
-    const auto reading = static_cast<double>(depth.at(row, col));
-    hidden += reading > 0.0 && reading < place.z() - kInFrontM ? 1 : 0;
-  }
-  return static_cast<double>(hidden) / kPlaces;
 }
 
 double Reacquisition::logOdds(const FoundPose& found) const {

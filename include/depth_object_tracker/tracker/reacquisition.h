@@ -4,30 +4,13 @@
 
 #include "depth_object_tracker/tracker/distractors.h"
 #include "depth_object_tracker/tracker/pose_finder.h"
+#include "depth_object_tracker/tracker/search_region.h"
 
 #include <memory>
 #include <optional>
 #include <vector>
 
 namespace depth_object_tracker {
-
-/// Where the object may be.
-struct SearchRegion {
-  Pose T_camera_centre = Pose::Identity();
-  Vector6d variances = Vector6d::Ones();  ///< [m^2, rad^2]
-  Vector6d moved_on = Vector6d::Zero();   ///< [m, rad] it may have gone, had it moved on as when it was last seen
-  double seen_distance_m = 0.0;           ///< where it was last surely seen: pixels must be fine enough for that, too
-  bool is_known = true;                   ///< false: anywhere in the image
-  bool everywhere = false;                ///< is_known: in the rest of the image, too, else in every third one
-  bool on_table = false;                  ///< not is_known: it rests on a plane that the image shows
-  double unseen_s = 0.0;                  ///< since it was seen last
-  bool was_followed = false;              ///< surely, until it was seen no more
-  double memory_s = 0.0;                  ///< since remember()
-  KnownOccluders* occluders = nullptr;    ///< the object is not where one of them is seen; null = none
-};
-
-/// Of a pose from where the object is expected, in squared standard deviations; 6 on average for the right one.
-double squaredDistance(const Pose& pose, const SearchRegion& region);
 
 /// Which poses an estimate is compared with, and how.
 struct OtherPoses {
@@ -106,7 +89,6 @@ class Reacquisition {
 
   double logOdds(const FoundPose& found) const;
   void findDistractors();
-  double hiddenShare(const SearchRegion& region, const DepthImageView& depth, const PinholeCamera& camera) const;
 
   static constexpr double kScoreOfAFairMesh = 0.92;
   std::unique_ptr<PoseFinder> finder_;
