@@ -88,6 +88,7 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
   self.is_seen = false;
   self.seen_s = self.unseen_s = 0.0;
   self.doubt.restart();
+  self.before_find.reset();
   self.initialising_s = 0.0;
   self.is_blind = self.is_anywhere = self.is_on_table = false;
   self.reacquired_s = self.moved_s = self.since_sure_s = Implementation::kLongAgoS;
@@ -140,6 +141,13 @@ void ObjectTracker::moveCamera(const Pose& T_now_before) {
   self.hand_velocity = rotated(self.hand_velocity, R_now_before);
   if (self.hidden_start) self.hidden_start->T_camera_centre = T_now_before * self.hidden_start->T_camera_centre;
   self.last_mean.mean = T_now_before * self.last_mean.mean;
+  self.last_velocity = rotated(self.last_velocity, R_now_before);
+  self.seen_velocity = rotated(self.seen_velocity, R_now_before);
+  if (self.before_find) {
+    self.before_find->mean.mean = T_now_before * self.before_find->mean.mean;
+    self.before_find->mean.covariance = rotated(self.before_find->mean.covariance, R_now_before);
+    self.before_find->seen_velocity = rotated(self.before_find->seen_velocity, R_now_before);
+  }
   self.reacquisition.moveCamera(T_now_before);
   self.last_mean.covariance = rotated(self.last_mean.covariance, R_now_before);
   self.result.T_camera_object = T_now_before * self.result.T_camera_object;

@@ -85,15 +85,18 @@ double neededEvidence(bool is_hidden, double remoteness) {
   return between(0.6, 1.8 + (is_hidden ? kMoreIfHidden : 0.0), remoteness);
 }
 
-double worthFollowing(bool is_hidden, double remoteness, double score, double visible, double usual_nat) {
+double worthFollowing(bool is_hidden, double remoteness, const PoseAssessment& assessment, double usual_score,
+                      double usual_nat) {
   constexpr double kMoreIfHidden = 0.5, kLessIfItFits = 2.5, kFits = 0.97, kFitsNot = 0.94, kNear = 0.3;
   constexpr double kLittle = 0.3, kMuch = 0.6;
+  const double score = assessment.achieved / std::max(1e-9, assessment.expected) / usual_score;
   const double fit = std::clamp((score - kFitsNot) / (kFits - kFitsNot), 0.0, 1.0) *
-                     std::clamp((visible - kLittle) / (kMuch - kLittle), 0.0, 1.0);
+                     std::clamp((assessment.visibleShare() - kLittle) / (kMuch - kLittle), 0.0, 1.0);
   const double nearness = std::max(0.0, 1.0 - remoteness / kNear);
   constexpr double kUsualNear = 0.3, kLeastNear = -1.5, kLessThanUsual = 2.0;
   const double near = std::clamp(usual_nat - kLessThanUsual, kLeastNear, kUsualNear);
-  return between(near, 1.2 + (is_hidden ? kMoreIfHidden : 0.0), remoteness) - kLessIfItFits * fit * nearness;
+  return between(near, 1.2 + (is_hidden ? kMoreIfHidden : 0.0), remoteness) -
+         std::max(0.0, kLessIfItFits * fit * nearness - againstMerging(assessment));
 }
 
 }  // namespace depth_object_tracker

@@ -25,9 +25,10 @@ double findLogOdds(const PoseAssessment& assessment, double usual_score);
 double neededEvidence(bool is_hidden, double remoteness);
 
 /// What fits by chance does so in the next image, too: only what is better than this adds up. What fits as well as the
-/// object does, where it is expected, is hardly anything else.
-/// @param score 1 = as well as the object usually does. @param visible share: some little thing fits anywhere.
-/// @param usual_nat log odds that the object itself had where it was followed: a can in a fist never has many.
-double worthFollowing(bool is_hidden, double remoteness, double score, double visible, double usual_nat);
+/// object does, where it is expected, is hardly anything else, unless it is what hides the object.
+/// @param usual_score that the object has where it is surely seen. @param usual_nat its log odds there: a can in a fist
+/// never has many.
+double worthFollowing(bool is_hidden, double remoteness, const PoseAssessment& assessment, double usual_score,
+                      double usual_nat);
 
 }  // namespace depth_object_tracker

@@ -109,14 +109,10 @@ std::optional<Pose> Reacquisition::search(const DepthImageView& depth, const Pin
   const auto remote = [&](const FoundPose& one) {
     return usual_score_ ? remoteness(one.T_camera_centre, region) : 1.0;
   };
-  const auto score = [&](const FoundPose& one) {
-    return one.assessment.achieved / std::max(1e-9, one.assessment.expected) / usualScore();
-  };
   const auto evidence = [&](const FoundPose& one) {
     return evidenceBefore(one.T_camera_centre) + logOdds(one) -
            distractors_.against(one.T_camera_centre, region.T_camera_centre, region.memory_s) -
-           worthFollowing(is_hidden, remote(one), score(one), one.assessment.visibleShare(),
-                          usual_log_odds_.value_or(kSureNat));
+           worthFollowing(is_hidden, remote(one), one.assessment, usualScore(), usual_log_odds_.value_or(kSureNat));
   };
   const auto margin = [&](const FoundPose& one) {
     const double out_of_reach = is_hidden && region.was_followed ? outOfReach(one.T_camera_centre, region) : 0.0;
@@ -247,6 +243,7 @@ std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const
                      [](const FoundPose& a, const FoundPose& b) { return a.quality > b.quality; });
   }
   const FoundPose now = finder_->judge(T_camera_centre);
+  log_odds_now_ = logOdds(now);
   constexpr double kExplainsMore = 1.1, kLeastNat = -3.0;
   if (!found_.empty() && others.everywhere) {
     constexpr double kMuchLikelier = 2.0, kSureByItself = 2.0, kLikelier = 1.0, kFarLikelier = 6.0;

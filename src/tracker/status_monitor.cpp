@@ -32,6 +32,11 @@ void StatusMonitor::restart() {
   score_ = 0.0;
 }
 
+void StatusMonitor::resume(TrackerState state) {
+  restart();
+  state_ = state;
+}
+
 void StatusMonitor::update(const PoseAssessment& assessment, double dt_s, bool is_blind) {
   visible_fraction_ = assessment.visibleShare();
   score_ = assessment.expected > 0.0 ? std::clamp(assessment.achieved / assessment.expected, 0.0, 1.5) : 0.0;

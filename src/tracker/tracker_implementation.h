@@ -82,6 +82,15 @@ class ObjectTracker::Implementation {
   double since_check_s = kLongAgoS;  // since its pose was compared with others
   double since_sure_s = kLongAgoS;   // since the pose was surely the object's
   Doubt doubt;
+  /// What was known before the object was found, should it turn out to be something else.
+  struct BeforeFind {
+    PoseStatistics mean;
+    Vector6d seen_velocity;
+    double unseen_s, since_sure_s;
+    TrackerState state;
+    int contradictions = 0;  // in a row
+  };
+  std::optional<BeforeFind> before_find;
   double since_remembered_s = kLongAgoS;   // all that is in view
   double since_learnt_s = kLongAgoS;       // how well the object fits where it is seen
   double initialising_s = 0.0;             // since an initial pose that does not fit yet
@@ -135,6 +144,8 @@ class ObjectTracker::Implementation {
   Doubt::Look whereToLook() const;
   bool moveToBetterPose(const DepthImageView& depth, const Pose& T_camera_centre);
   void startAt(const Pose& T_camera_centre);
+  /// What was found a moment ago is not the object, by the images since. @return true when it is taken back.
+  bool takeBackFind();
   /// Moves to a pose that looks alike but explains the image better.
   void turnToLookAlike(FilterEstimate& estimate, PoseAssessment& assessment, double dt_s);
   /// About an axis that the image does not show: to where it should be or, where that is contradicted, to the middle.

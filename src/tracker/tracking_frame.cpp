@@ -85,7 +85,7 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
     estimate = hold(time.dt_s, control);
     assessment = assess(estimate);
   } else if (!is_blind && moveToBetterPose(depth, estimate.pose.mean)) {
-    estimate = look(time.dt_s, control);
+    estimate = is_blind ? hold(time.dt_s, control) : look(time.dt_s, control);
     assessment = assess(estimate);
   }
   turnToLookAlike(estimate, assessment, time.dt_s);

@@ -61,6 +61,8 @@ bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, doubl
   region.occluders = known_occluders;
   const std::optional<Pose> found = reacquisition.search(depth, camera_in_use, region);
   if (!found) return false;
+  before_find.reset();
+  if (region.is_known) before_find = BeforeFind{last_mean, seen_velocity, unseen_s, since_sure_s, status.state()};
   startAt(*found);
   // Found where and how it was expected, it is not compared with what looks alike as if nothing were known.
   constexpr double kExpectedSquared = 6.0;
@@ -100,7 +102,30 @@ bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth
   const std::optional<Pose> better = reacquisition.findBetter(depth, camera_in_use, T_camera_centre, others);
   if (better) startAt(*better);
   doubt.looked(look);
-  return better.has_value();
+  if (!just_found) before_find.reset();
+  return better.has_value() || takeBackFind();
+}
+
+bool ObjectTracker::Implementation::takeBackFind() {
+  constexpr double kNotTheObjectNat = -6.0;
+  constexpr int kImages = 2;
+  if (!before_find) return false;
+  const bool is_contradicted = reacquisition.logOddsNow() < kNotTheObjectNat;
+  before_find->contradictions = is_contradicted ? before_find->contradictions + 1 : 0;
+  if (before_find->contradictions < kImages) return false;
+  const BeforeFind before = *before_find;
+  before_find.reset();
+  startAt(before.mean.mean);
+  initial_variances.reset();
+  last_mean = before.mean;
+  seen_velocity = before.seen_velocity;
+  unseen_s = before.unseen_s + reacquired_s;
+  since_sure_s = before.since_sure_s + reacquired_s;
+  reacquired_s = kLongAgoS;
+  doubt.restart();
+  status.resume(before.state);
+  is_blind = true;
+  return true;
 }
 
 bool ObjectTracker::Implementation::leaps(const DepthImageView& depth, const FilterEstimate& estimate) {

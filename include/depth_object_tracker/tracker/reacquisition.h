@@ -43,6 +43,9 @@ class Reacquisition {
   std::optional<Pose> findBetter(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre,
                                  const OtherPoses& others);
 
+  /// Of the estimate in the last findBetter().
+  double logOddsNow() const { return log_odds_now_; }
+
   /// Poses around a given one at which the object may be; for an image in which it is thought to be near.
   std::vector<Pose> lookAround(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre,
                                const Vector6d& variances);
@@ -94,6 +97,7 @@ class Reacquisition {
   std::unique_ptr<PoseFinder> finder_;
   Distractors distractors_;
   std::optional<double> usual_score_, usual_log_odds_;
+  double log_odds_now_ = 0.0;
   std::vector<Survivor> survivors_;
   std::vector<FoundPose> found_;
   Pose winner_ = Pose::Identity();  // of the last search with nothing known

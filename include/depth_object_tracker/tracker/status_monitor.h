@@ -19,6 +19,8 @@ class StatusMonitor {
 
   /// A new initial pose, or a jump of time: INITIALIZING until the estimate fits.
   void restart();
+  /// What was taken for the object was not: as before it was found.
+  void resume(TrackerState state);
   void reset() { state_ = TrackerState::kUninitialized; }
 
   /// @param dt_s since the last image that was used. @param is_blind the estimate is not fitted to the image but held
