@@ -146,6 +146,7 @@ class ObjectTracker::Implementation {
   void startAt(const Pose& T_camera_centre);
   /// What was found a moment ago is not the object, by the images since. @return true when it is taken back.
   bool takeBackFind();
+  void forgetFind();
   /// Moves to a pose that looks alike but explains the image better.
   void turnToLookAlike(FilterEstimate& estimate, PoseAssessment& assessment, double dt_s);
   /// About an axis that the image does not show: to where it should be or, where that is contradicted, to the middle.

@@ -45,6 +45,9 @@ Vector6d movedOn(const Vector6d& velocity, double duration_s) {
 
 bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, double dt_s) {
   if (hidden_start) return false;
+  // What was found was never surely the object, and is gone: the object may be where it was before.
+  constexpr double kBriefS = 1.5;
+  if (before_find && doubt.isUnproven() && reacquired_s < kBriefS) forgetFind();
   SearchRegion region;
   region.T_camera_centre = last_mean.mean;
   region.variances = searchVariances(unseen_s + dt_s);
@@ -102,17 +105,21 @@ bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth
   const std::optional<Pose> better = reacquisition.findBetter(depth, camera_in_use, T_camera_centre, others);
   if (better) startAt(*better);
   doubt.looked(look);
-  if (!just_found) before_find.reset();
   return better.has_value() || takeBackFind();
 }
 
 bool ObjectTracker::Implementation::takeBackFind() {
-  constexpr double kNotTheObjectNat = -6.0;
+  constexpr double kNotTheObjectNat = -4.5;
   constexpr int kImages = 2;
-  if (!before_find) return false;
+  if (!before_find || reacquired_s > kDoubtfulAfterFindS) return false;
   const bool is_contradicted = reacquisition.logOddsNow() < kNotTheObjectNat;
   before_find->contradictions = is_contradicted ? before_find->contradictions + 1 : 0;
   if (before_find->contradictions < kImages) return false;
+  forgetFind();
+  return true;
+}
+
+void ObjectTracker::Implementation::forgetFind() {
   const BeforeFind before = *before_find;
   before_find.reset();
   startAt(before.mean.mean);
@@ -125,7 +132,6 @@ bool ObjectTracker::Implementation::takeBackFind() {
   doubt.restart();
   status.resume(before.state);
   is_blind = true;
-  return true;
 }
 
 bool ObjectTracker::Implementation::leaps(const DepthImageView& depth, const FilterEstimate& estimate) {
