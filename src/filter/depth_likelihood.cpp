@@ -38,7 +38,7 @@ double edgeStddev(double edge_stddev_px, int factor) {
 }
 
 MeasuredPixel broadened(MeasuredPixel pixel, float extra_stddev_m) {
-  if (extra_stddev_m <= 0.0f || pixel.depth <= 0.0f) return pixel;
+  if (extra_stddev_m <= 0.0f || !pixel.hasReading()) return pixel;
   const float shrink = 1.0f / std::hypot(1.0f, extra_stddev_m * pixel.inverse_stddev);
   pixel.inverse_stddev *= shrink;
   if (pixel.visible_peak > kBackgroundPeak) pixel.visible_peak *= shrink;
@@ -89,7 +89,7 @@ struct SeenSurface {
 SeenSurface seenSurface(const MeasuredPixel& pixel, float object_depth) {
   constexpr float kSameStddevs = 3.0f, kHiddenStddevs = 5.0f;
   const float in_front = (object_depth - pixel.depth) * pixel.inverse_stddev;
-  if (pixel.depth <= 0.0f || in_front < -kSameStddevs) return {};
+  if (!pixel.hasReading() || in_front < -kSameStddevs) return {};
   if (in_front > kHiddenStddevs) return {pixel.depth, false};
   return in_front < kSameStddevs ? SeenSurface{pixel.depth, true} : SeenSurface{};
 }
@@ -337,7 +337,7 @@ PoseAssessment DepthLikelihood::assess(const Pose& T_camera_centre, int thread, 
       result.covered_pixels += is_covered ? 1 : 0;
       const MeasuredPixel pixel =
           broadened(image_.pixel(tile.row_begin + row, tile.col_begin + col), static_cast<float>(extra_stddev_m));
-      if (pixel.depth <= 0.0f) continue;
+      if (!pixel.hasReading()) continue;
       if (!is_covered) {
         assessSurroundings(pixel, tile.softDepth()[cell], result);
         continue;

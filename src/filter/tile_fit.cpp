@@ -15,7 +15,7 @@ struct RowSums {
     constexpr float kFarthest = 1e6f;  // infinity where nothing was drawn
     for (int i = 0; i < kTileSize; ++i) {
       const float z = measured[i];
-      const float has_reading = z > 0.0f ? 1.0f : 0.0f;
+      const float has_reading = z > kMissingReadingM ? 1.0f : 0.0f;
       const float is_covered = depth[i] < kFarthest ? 1.0f : 0.0f;
       const float is_beside = coverage[i] > 0.0f ? 1.0f - is_covered : 0.0f;
       const float surface = is_covered > 0.0f ? depth[i] : is_beside > 0.0f ? soft_depth[i] : 0.0f;

@@ -20,6 +20,8 @@ CellBox wholeTiles(const CellBox& box) {
 
 MeasuredImage::MeasuredImage(const PixelModelConfig& config)
     : config_(config),
+      missing_ratio_(config.occluder_model == OccluderModel::kPaper ? 1.0f
+                                                                    : static_cast<float>(config.no_reading_ratio)),
       model_{static_cast<float>(config.min_p_occluded_in_front), static_cast<float>(occluderRate(config)),
              config.occluder_model == OccluderModel::kPaper, static_cast<float>(config.known_occluder_p_occluded)} {}
 
@@ -98,13 +100,29 @@ void MeasuredImage::measureRow(int row, int col_begin, int col_end) {
   for (int col = col_begin; col < col_end; ++col) {
     const bool exists = col < grid_.camera.width;
     const float z = exists ? view_.at(grid_.fullRow(row), grid_.fullCol(col)) : 0.0f;
-    depth_[begin + static_cast<std::size_t>(col - col_begin)] = z > 0.0f && z <= max_depth ? z : 0.0f;
+    const float missing = exists && missing_ratio_ < 1.0f ? kMissingReadingM : 0.0f;
+    depth_[begin + static_cast<std::size_t>(col - col_begin)] = z > 0.0f && z <= max_depth ? z : missing;
   }
   const auto count = static_cast<std::size_t>(std::max(0, col_end - col_begin));
   computeConstants(begin, count);
   if (model_.paper_occluder) computeFloor(begin, count);
+  if (missing_ratio_ < 1.0f) weighMissing(begin, count);
   if (has_occluders_) dropSeenThrough(begin, count);
   if (has_taken_) excludeTaken(begin, count);
+}
+
+/// At any depth of the object the ratios are missing_ratio_ where it is visible, and 1 where it is occluded: the shift
+/// lifts Phi(0) = 1/2 to 1.
+void MeasuredImage::weighMissing(std::size_t begin, std::size_t count) {
+  constexpr float kHardlyAny = 1e-4f;  // inverse of a standard deviation
+  for (std::size_t i = begin; i < begin + count; ++i) {
+    if (depth_[i] != kMissingReadingM) continue;
+    inverse_stddev_[i] = kHardlyAny;
+    visible_peak_[i] = 0.0f;
+    tail_[i] = missing_ratio_;
+    occluded_shift_[i] = 0.5f / fast_math::kInverseSqrt2Pi;
+    occluded_floor_[i] = 0.0f;
+  }
 }
 
 void MeasuredImage::dropSeenThrough(std::size_t begin, std::size_t count) {

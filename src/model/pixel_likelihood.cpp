@@ -63,9 +63,19 @@ double missDensity(double measured_depth_m, const PixelModelConfig& config) {
   return blurredOccluderDensity(measured_depth_m, config) + tailDensity(measured_depth_m, config);
 }
 
+namespace {
+
+PixelUpdate updateMissing(double p_occluded, const PixelModelConfig& config) {
+  if (config.occluder_model == OccluderModel::kPaper) return {0.0, p_occluded};
+  const double total = (1.0 - p_occluded) * config.no_reading_ratio + p_occluded;
+  return {std::log(total), p_occluded / total};
+}
+
+}  // namespace
+
 PixelUpdate updatePixel(double measured_depth_m, double rendered_depth_m, double p_occluded,
                         const PixelModelConfig& config) {
-  if (!(measured_depth_m > 0.0 && measured_depth_m <= config.max_depth_m)) return {0.0, p_occluded};
+  if (!(measured_depth_m > 0.0 && measured_depth_m <= config.max_depth_m)) return updateMissing(p_occluded, config);
   const double visible = (1.0 - p_occluded) * visibleDensity(measured_depth_m, rendered_depth_m, config);
   const double occluded = p_occluded * occludedDensity(measured_depth_m, rendered_depth_m, config);
   const double total = visible + occluded;

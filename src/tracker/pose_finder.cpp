@@ -46,6 +46,12 @@ bool isLargerThan(const ImagePlane& plane, double diameter_m) {
   return side(2) > kLongerThan * diameter_m && side(1) > kBroaderThan * diameter_m;
 }
 
+/// Poses are told apart by what is seen: the numbers of pose_evidence.cpp were found so.
+PixelModelConfig readingsAlone(PixelModelConfig config) {
+  config.no_reading_ratio = 1.0;
+  return config;
+}
+
 }  // namespace
 
 PoseFinder::PoseFinder(const ObjectShape& shape, const TriangleMesh& mesh, double diameter_m,
@@ -61,8 +67,8 @@ PoseFinder::PoseFinder(const ObjectShape& shape, const TriangleMesh& mesh, doubl
       votes_(static_cast<std::size_t>(pool_->numThreads()), PairVotes(pairs_)),
       sparse_(object_points_, diameter_m),
       table_draws_(mesh, shape.centre_object, object_points_, seed),
-      coarse_(shape, config, OcclusionChainConfig(), 1, pool_),
-      fine_(shape, config, OcclusionChainConfig(), 1, pool_),
+      coarse_(shape, readingsAlone(config), OcclusionChainConfig(), 1, pool_),
+      fine_(shape, readingsAlone(config), OcclusionChainConfig(), 1, pool_),
       pixel_config_(config) {}
 
 /// Copies the image. What others hold is nothing to start a search from.

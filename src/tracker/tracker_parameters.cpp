@@ -35,6 +35,7 @@ Bindings measurementBindings() {
     bindNumber(FIELD(pixel, known_occluder_p_occluded), 0.0, 0.99, "least probability of occlusion behind a known occluder (a link of the robot); 0 = they are ignored"),
     bindNumber(FIELD(pixel, known_occluder_margin_m), 0.0, 1.0, "how well the place of a known occluder is known: what is less far behind it is not behind it"),
     bindNumber(FIELD(pixel, min_p_occluded_in_front), 0.0, 0.99, "least probability of occlusion for readings far in front of the object; 0 = unused (the paper)"),
+    bindNumber(FIELD(pixel, no_reading_ratio), 0.01, 1.0, "pixels without a reading: how much rarer they are on the visible object than elsewhere; 1 = they say nothing (the paper)"),
     bindNumber(FIELD(pixel, occluder_half_life_m), 0.01, 100.0, "distance over which the density of occluders halves"),
     bindNumber(FIELD(occlusion, p_visible_given_visible), 0.001, 0.999, "probability that a visible pixel is visible one second later; not less than p_visible_given_occluded: as much = no memory, see beam.yaml"),
     bindNumber(FIELD(occlusion, p_visible_given_occluded), 0.001, 0.999, "probability that an occluded pixel is visible one second later"),

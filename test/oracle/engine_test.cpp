@@ -659,7 +659,8 @@ class EngineReference : public testing::TestWithParam<OccluderModel> {
   PixelUpdate expected(int row, int col, float p_occluded) const {
     const float depth = tile_.depth()[row * tile_.stride + col];
     const PixelPlanes planes = frame_->input().planes;
-    return updatePixel(planes.depth[row * planes.stride + col], depth, p_occluded, config_);
+    const float z = planes.depth[row * planes.stride + col];
+    return updatePixel(z > kMissingReadingM ? z : 0.0, depth, p_occluded, config_);
   }
 
   /// A copy of the tile in which only one pixel is covered.

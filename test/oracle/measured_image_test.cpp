@@ -182,10 +182,31 @@ TEST(MeasuredImage, TheFloorOfTheBeliefRisesOverItsRamp) {
 
 TEST(MeasuredImage, ReadingsWithoutInformationAreMarked) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
-  const RowImage row({0.0f, nan, infinity, -infinity, -0.5f, 6.01f, 1e9f, 5.99f, 1.0f}, PixelModelConfig());
+  PixelModelConfig config;
+  config.no_reading_ratio = 1.0;
+  const RowImage row({0.0f, nan, infinity, -infinity, -0.5f, 6.01f, 1e9f, 5.99f, 1.0f}, config);
   for (int col = 0; col < 7; ++col) EXPECT_EQ(row.pixel(col).depth, 0.0f) << "column " << col;
   EXPECT_EQ(row.pixel(7).depth, 5.99f);
   EXPECT_EQ(row.pixel(8).depth, 1.0f);
+}
+
+TEST(MeasuredImage, WithoutAReadingRatiosAreTheSameAtAnyDepth) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  PixelModelConfig config;
+  config.no_reading_ratio = 0.25;
+  const RowImage row({nan, 0.0f, 7.0f, 1.0f}, config);
+  const PixelModel model = MeasuredImage(config).model();
+  for (int col = 0; col < 3; ++col) {
+    EXPECT_FALSE(row.pixel(col).hasReading()) << "column " << col;
+    for (const float depth : {0.2f, 1.0f, 5.0f}) {
+      const PixelRatios ratios = pixelRatios(model, row.pixel(col), depth);
+      EXPECT_NEAR(ratios.visible, 0.25f, 1e-4f);
+      EXPECT_NEAR(ratios.occluded, 1.0f, 1e-3f);
+      EXPECT_EQ(ratios.surface, 0.0f);
+      EXPECT_EQ(believedOcclusion(model, 0.3f, row.pixel(col), depth), 0.3f) << "nothing is seen in front";
+    }
+  }
+  EXPECT_TRUE(row.pixel(3).hasReading());
 }
 
 TEST(MeasuredImage, ReadsOnlyTheBoxesAskedForAndKeepsThem) {

@@ -87,7 +87,10 @@ class BruteForce {
   }
 
   double densityRatio(const Pose& pose, float reading, int pixel, bool occluded) const {
-    if (!(reading > 0.0f) || !covers(pose, pixel)) return 1.0;
+    if (!covers(pose, pixel)) return 1.0;
+    if (!(reading > 0.0f)) {
+      return occluded || pixel_.occluder_model == OccluderModel::kPaper ? 1.0 : pixel_.no_reading_ratio;
+    }
     const double d = pose.translation().z();
     const double density = occluded ? occludedDensity(reading, d, pixel_) : visibleDensity(reading, d, pixel_);
     return density / missDensity(reading, pixel_);
@@ -255,7 +258,9 @@ TEST_P(OcclusionPosterior, ParticlesThatFlyApartAreAllRemembered) {
   }
 }
 
-TEST_P(OcclusionPosterior, MissingReadingsLeaveTheChainAlone) {
+TEST_P(OcclusionPosterior, MissingReadingsLeaveTheChainAloneWhereTheySayNothing) {
+  pixel_.no_reading_ratio = 1.0;
+  likelihood_.emplace(makePlate(kHalfWidth), Eigen::Vector3d::Zero(), pixel_, chain_, 2, 1);
   const std::vector<float> nothing = {kNone, 0.0f, 7.0f};
   updateFrame(0, {kSteadyPast[0], kOtherPast[0]});
   const double before = belief(0, 1);

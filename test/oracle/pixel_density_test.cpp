@@ -193,13 +193,29 @@ TEST(PixelUpdate, FreeSpaceViolationCostsAboutFiveNat) {
   EXPECT_GT(update.log_ratio, -6.0);
 }
 
-TEST(PixelUpdate, NoReadingIsNoInformation) {
-  const PixelModelConfig config;
+TEST(PixelUpdate, NoReadingSpeaksAgainstAVisibleSurface) {
+  PixelModelConfig config;
+  config.no_reading_ratio = 0.25;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double z : {0.0, -1.0, 6.001, nan}) {
+    const PixelUpdate update = updatePixel(z, 1.0, 0.2, config);
+    EXPECT_NEAR(update.log_ratio, std::log(0.8 * 0.25 + 0.2), 1e-12) << "z = " << z;
+    EXPECT_NEAR(update.p_occluded, 0.5, 1e-12) << "0.2 against 0.8 / 4";
+    EXPECT_EQ(updatePixel(z, 1.0, 1.0, config).log_ratio, 0.0) << "what hides the object may do so without readings";
+  }
+}
+
+TEST(PixelUpdate, NoReadingIsNoInformationToThePaper) {
+  PixelModelConfig config;
+  config.no_reading_ratio = 1.0;
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   for (const double z : {0.0, -1.0, 6.001, 100.0, nan, infinity, -infinity}) {
     const PixelUpdate update = updatePixel(z, 1.0, 0.37, config);
     EXPECT_EQ(update.log_ratio, 0.0) << "z = " << z;
     EXPECT_EQ(update.p_occluded, 0.37) << "z = " << z;
+    PixelModelConfig paper;
+    paper.occluder_model = OccluderModel::kPaper;
+    EXPECT_EQ(updatePixel(z, 1.0, 0.37, paper).log_ratio, 0.0) << "z = " << z;
   }
 }
 

@@ -17,15 +17,20 @@ namespace depth_object_tracker {
 /// Farther away than anything.
 constexpr float kNoOccluder = std::numeric_limits<float>::max();
 
+/// Depth [m] of a pixel without a reading where that says something: it is no reading, but has ratios like one.
+constexpr float kMissingReadingM = 1e-6f;
+
 /// Constants of one measured pixel; densities as ratios to missDensity (see pixel_likelihood.h).
 struct MeasuredPixel {
-  float depth = 0.0f;           ///< [m]; 0 = no reading
+  float depth = 0.0f;           ///< [m]; 0 = says nothing, kMissingReadingM = no reading
   float inverse_stddev = 0.0f;  ///< 1 / surfaceNoiseStddev [1/m]
   float visible_peak = 0.0f;    ///< Gaussian part of the visible ratio at d = z; 0 = something else is seen there
   float tail = 0.0f;            ///< uniform part of every ratio; an occluder far in front makes up the rest to 1
   float occluded_shift = 0.0f;  ///< shift of the occluder's step, in standard deviations
   float occluded_floor = 0.0f;  ///< paper's second Phi (readings near the lens); 0 for the consistent model
   float occluder_limit = kNoOccluder;  ///< [m] an object farther away than this is behind a known occluder
+
+  bool hasReading() const { return depth > kMissingReadingM; }
 };
 
 /// Ratios of a measured pixel's densities to "no object".
@@ -114,10 +119,12 @@ class MeasuredImage {
   void measureRow(int row, int col_begin, int col_end);
   void computeConstants(std::size_t begin, std::size_t count);
   void computeFloor(std::size_t begin, std::size_t count);
+  void weighMissing(std::size_t begin, std::size_t count);
   void dropSeenThrough(std::size_t begin, std::size_t count);
   void excludeTaken(std::size_t begin, std::size_t count);
 
   PixelModelConfig config_;
+  float missing_ratio_;  ///< 1 = pixels without a reading say nothing
   PixelModel model_;
   DepthImageView view_;
   SamplingGrid grid_;

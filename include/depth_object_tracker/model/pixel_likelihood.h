@@ -37,7 +37,8 @@ struct PixelUpdate {
 };
 
 /// The paper's marginalisation over the pixel's occlusion and its posterior.
-/// @param measured_depth_m non-finite or outside of (0, max_depth_m]: no information, {0, p_occluded}.
+/// @param measured_depth_m non-finite or outside of (0, max_depth_m]: no reading, of which a visible object has fewer
+/// than anything else (config.no_reading_ratio).
 /// @param p_occluded prior in [0, 1], already moved forward in time.
 PixelUpdate updatePixel(double measured_depth_m, double rendered_depth_m, double p_occluded,
                         const PixelModelConfig& config);

@@ -21,6 +21,9 @@ struct PixelModelConfig {
   double known_occluder_margin_m = 0.03;    ///< how well its place is known: nearer to it nothing is behind it
   double min_p_occluded_in_front =
       0.8;  ///< p(occluded), at least, of readings far in front of the object; 0 = unused (the paper)
+  /// p(no reading | object visible) / p(no reading | anything else); 1 = it says nothing (the paper). With kPaper
+  /// unused.
+  double no_reading_ratio = 0.3;
   double occluder_half_life_m = 1.0;  ///< depth over which the occluders' density halves
 };
 
