@@ -315,6 +315,16 @@ void DepthLikelihood::resample(const std::vector<int>& source) {
   weights_.assign(source.size(), 1.0 / static_cast<double>(source.size()));
 }
 
+void DepthLikelihood::weighMissingReadings(const Pose& T_camera_centre) {
+  constexpr double kUsualShare = 0.15, kTooLargeShare = 0.5;
+  if (image_.missingRatio() >= 1.0f) return;
+  image_.prepare(boundingBox(T_camera_centre));
+  const TileFit fit = countFit(T_camera_centre, 0.0, 0);
+  const double missing = fit.covered > 0 ? 1.0 - static_cast<double>(fit.measured()) / fit.covered : 0.0;
+  const double silence = std::clamp((missing - kUsualShare) / (kTooLargeShare - kUsualShare), 0.0, 1.0);
+  image_.setMissingRatio(image_.missingRatio() + static_cast<float>(silence) * (1.0f - image_.missingRatio()));
+}
+
 TileFit DepthLikelihood::countFit(const Pose& T_camera_centre, double tolerance_m, int thread) {
   constexpr double kNoiseStddevs = 3.0;
   if (!isPrepared(T_camera_centre)) return TileFit();

@@ -16,12 +16,15 @@ CellBox wholeTiles(const CellBox& box) {
   return {down(box.row_begin), up(box.row_end), down(box.col_begin), up(box.col_end)};
 }
 
+float configuredMissingRatio(const PixelModelConfig& config) {
+  return config.occluder_model == OccluderModel::kPaper ? 1.0f : static_cast<float>(config.no_reading_ratio);
+}
+
 }  // namespace
 
 MeasuredImage::MeasuredImage(const PixelModelConfig& config)
     : config_(config),
-      missing_ratio_(config.occluder_model == OccluderModel::kPaper ? 1.0f
-                                                                    : static_cast<float>(config.no_reading_ratio)),
+      missing_ratio_(configuredMissingRatio(config)),
       model_{static_cast<float>(config.min_p_occluded_in_front), static_cast<float>(occluderRate(config)),
              config.occluder_model == OccluderModel::kPaper, static_cast<float>(config.known_occluder_p_occluded)} {}
 
@@ -30,12 +33,18 @@ void MeasuredImage::setImage(const DepthImageView& view, const SamplingGrid& gri
   grid_ = grid;
   prepared_ = CellBox();
   has_occluders_ = has_taken_ = false;
+  missing_ratio_ = configuredMissingRatio(config_);
   const CellBox padded = wholeTiles(imageBox());
   stride_ = static_cast<std::size_t>(padded.cols());
   const std::size_t num_cells = stride_ * static_cast<std::size_t>(padded.rows());
   for (auto* plane : {&depth_, &inverse_stddev_, &visible_peak_, &tail_, &occluded_shift_, &occluded_floor_}) {
     if (plane->size() != num_cells) plane->assign(num_cells, 0.0f);
   }
+}
+
+void MeasuredImage::setMissingRatio(float ratio) {
+  missing_ratio_ = ratio;
+  prepared_ = CellBox();
 }
 
 void MeasuredImage::setOccluders(const std::vector<float>& depth_m) {

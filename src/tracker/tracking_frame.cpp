@@ -49,6 +49,7 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
     likelihood.setOccluders(known_occluders->render(grid.camera));
     likelihood.setTakenSurfaces(known_occluders->renderSeen(grid.camera));
   }
+  if (!is_anywhere) likelihood.weighMissingReadings(last_mean.mean);
   setAsideWhatIsNotHeld(depth, grid, time.dt_s, control);
 
   const std::optional<FilterEstimate> past_hand = lookPastTheHand(depth, grid, time.dt_s, control);

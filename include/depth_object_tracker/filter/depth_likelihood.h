@@ -65,6 +65,10 @@ class DepthLikelihood : public PoseLikelihood {
 
   /// Makes the whole image available, for poses anywhere in it. @param level_error_m [m] of the mesh that is rendered.
   void prepareWholeImage(double level_error_m);
+
+  /// When much of the object has no reading at a pose where it is expected, the camera does not see it (a covered lens,
+  /// something too near, glass), and pixels without a reading say little or nothing in this image. After setImage().
+  void weighMissingReadings(const Pose& T_camera_centre);
   /// Planes that are there without the object, of what is prepared; see MeasuredImage.
   void setBackground(const std::vector<BackgroundPlane>& planes) { image_.setBackground(planes); }
   /// Known occluders for this image; see MeasuredImage.

@@ -112,6 +112,11 @@ class MeasuredImage {
   PixelPlanes planes() const;
   const PixelModel& model() const { return model_; }
 
+  /// By which pixels without a reading are weighed, see PixelModelConfig::no_reading_ratio; 1 = they say nothing. Until
+  /// the next image. Forgets what is prepared.
+  void setMissingRatio(float ratio);
+  float missingRatio() const { return missing_ratio_; }
+
   /// Address that depth is read from.
   const std::uint8_t* source() const { return view_.data; }
 
