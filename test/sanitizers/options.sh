@@ -15,7 +15,7 @@ use_sanitizer_options() {
   export ASAN_OPTIONS="suppressions=$SANITIZERS/asan.supp:detect_stack_use_after_return=1:strict_string_checks=1:handle_abort=1$log"
   export LSAN_OPTIONS="suppressions=$SANITIZERS/lsan.supp:print_suppressions=0"  # what was suppressed is no finding
   export UBSAN_OPTIONS="print_stacktrace=1:abort_on_error=1$log"
-  export TSAN_OPTIONS="suppressions=$SANITIZERS/tsan.supp:second_deadlock_stack=1$log"
+  export TSAN_OPTIONS="suppressions=$SANITIZERS/tsan.supp:second_deadlock_stack=1:ignore_noninstrumented_modules=1$log"
 }
 
 # show_sanitizer_reports FOLDER: prints them; fails when there is one.
