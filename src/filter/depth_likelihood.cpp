@@ -368,8 +368,8 @@ void DepthLikelihood::assessHiddenEdges(const DepthTile& tile, PoseAssessment& r
   constexpr float kSteepest = 1.5f, kNoiseStddevs = 4.0f;
   const auto surface = [&](int row, int col) {
     if (row < 0 || col < 0) return SeenSurface();
-    if (tile.touched[static_cast<std::size_t>(row / kTileSize * tile.tile_cols + col / kTileSize)] == 0)
-      return SeenSurface();
+    const int small_tile = row / kTileSize * tile.tile_cols + col / kTileSize;
+    if (tile.touched[static_cast<std::size_t>(small_tile)] == 0) return SeenSurface();
     const float depth = tile.depth()[row * tile.stride + col];
     if (!(depth < std::numeric_limits<float>::infinity())) return SeenSurface();
     return seenSurface(image_.pixel(tile.row_begin + row, tile.col_begin + col), depth);

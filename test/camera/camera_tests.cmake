@@ -39,6 +39,10 @@ target_include_directories(openni2_camera_rostest SYSTEM PRIVATE ${OPENNI2_INCLU
 target_link_libraries(openni2_camera_rostest PRIVATE depth_object_tracker_ros_camera depth_object_tracker_warnings
   ${OPENNI2_LIBRARY} GTest::gtest)
 target_compile_definitions(openni2_camera_rostest PRIVATE PROJECT_SOURCE_FOLDER="${PROJECT_SOURCE_DIR}")
+if(SANITIZE)
+  target_sources(openni2_camera_rostest PRIVATE sanitizers/keep_libraries.cpp)
+  set_target_properties(openni2_camera_rostest PROPERTIES ENABLE_EXPORTS ON)
+endif()
 add_dependencies(openni2_camera_rostest virtual_depth_driver depth_object_tracker_nodelets
   depth_object_tracker_camera_nodelets)
 

@@ -77,12 +77,12 @@ TEST_F(Live, MetresAreTheSameDepth) {
     return nullptr;
   };
   ASSERT_TRUE(waitUntil([&] { return matching() != nullptr; }));
-  const auto image = metres.messages().front();
+  const auto millimetres = matching(), image = metres.messages().front();
   EXPECT_EQ(image->encoding, "32FC1");
   for (std::size_t i = 0; i < image->data.size() / 4; ++i) {
     float depth_m = 0.0f;
     std::memcpy(&depth_m, &image->data[4 * i], 4);
-    ASSERT_FLOAT_EQ(depth_m, 0.001f * static_cast<float>(CameraListener::pixels(*matching())[i])) << i;
+    ASSERT_FLOAT_EQ(depth_m, 0.001f * static_cast<float>(CameraListener::pixels(*millimetres)[i])) << i;
   }
 }
 

@@ -117,7 +117,7 @@ class Bags(EvaluateTest):
         environment = os.pathsep.join([os.path.dirname(os.environ["TRACK_BAG"]), os.environ["PATH"]])
         os.environ["PATH"] = environment
         done = self.evaluate(self.folder / "data/box.bag", "--object", self.folder / "data/box.obj")
-        self.assertIn("data/box", done.stdout)
+        self.assertIn("data/box", done.stdout, done.stderr)
         log = (self.output / "estimates/data/box/seed1.log")
         self.assertTrue(log.is_file(), done.stderr)
         self.assertTrue((self.output / "estimates/data/box/seed1.jsonl").is_file(), log.read_text())
