@@ -206,8 +206,8 @@ TEST(PartlyHiddenFromTheStart, IsFoundBesideTheGripper) {
 /// A box that was searched without knowing how it is turned looks the same after half a turn about any of its axes.
 double errorUpToHalfTurns(const ScriptedScene& scene, const Pose& estimate, const Pose& truth) {
   double error_m = scene.error(estimate, truth);
-  for (const Eigen::Vector3d& axis : {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()}) {
-    error_m = std::min(error_m, scene.error(estimate * Eigen::AngleAxisd(M_PI, axis), truth));
+  for (int axis = 0; axis < 3; ++axis) {
+    error_m = std::min(error_m, scene.error(estimate * Eigen::AngleAxisd(M_PI, Eigen::Vector3d::Unit(axis)), truth));
   }
   return error_m;
 }
