@@ -273,6 +273,23 @@ TEST_P(OcclusionPosterior, MissingReadingsLeaveTheChainAloneWhereTheySayNothing)
   EXPECT_NEAR(belief(0, 1), 0.25 + (before - 0.25) * std::pow(0.6, 0.25), 1e-6);
 }
 
+TEST_P(OcclusionPosterior, MissingReadingsSayLessTheMoreOfTheObjectHasNone) {
+  const std::vector<float> nothing = {kNone, 0.0f, 7.0f}, two = {1.001f, 0.999f, kNone}, all = {1.001f, 0.999f, 1.0f};
+  const auto weigh = [&](const std::vector<float>& readings) {
+    likelihood_->setImage(viewOf(readings, grid_.camera), grid_, 0.25);
+    likelihood_->weighMissingReadings(kSteadyPast[1]);
+    return likelihood_->image().missingRatio();
+  };
+  const bool is_paper = GetParam() == OccluderModel::kPaper;
+  const double ratio = is_paper ? 1.0 : pixel_.no_reading_ratio;
+  EXPECT_NEAR(weigh(all), ratio, 1e-6);
+  const double of_two = weigh(two);
+  EXPECT_TRUE(is_paper ? of_two == 1.0 : of_two > ratio && of_two < 1.0) << "more than usual: " << of_two;
+  EXPECT_EQ(weigh(nothing), 1.0) << "a covered lens";
+  likelihood_->prepare({kSteadyPast[1]});
+  EXPECT_EQ(likelihood_->logLikelihood(kSteadyPast[1], 0), 0.0);
+}
+
 TEST_P(OcclusionPosterior, APoseOutsideOfTheImageSaysNothing) {
   const std::vector<double> log_likelihoods = updateFrame(0, {poseAt(5, 0, 1), poseAt(0, 0, -1)});
   EXPECT_EQ(log_likelihoods[0], 0.0);
