@@ -15,6 +15,10 @@ constexpr double kMostNat = 5.0;
 
 }  // namespace
 
+void Distractors::expectImages(const PinholeCamera& camera) {
+  depth_m_.reserve(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
+}
+
 void Distractors::remember(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre) {
   const auto width = static_cast<std::size_t>(depth.width);
   depth_m_.resize(width * static_cast<std::size_t>(depth.height));

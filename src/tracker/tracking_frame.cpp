@@ -156,7 +156,10 @@ bool ObjectTracker::Implementation::checkInput(const DepthImageView& depth, cons
     result.reason = problem;
     return false;
   }
-  if (camera != camera_in_use) full_resolution_pixels = 0.0;
+  if (camera != camera_in_use) {
+    full_resolution_pixels = 0.0;
+    reacquisition.expectImages(camera);
+  }
   camera_in_use = camera;
   if (status.state() == TrackerState::kUninitialized) result.reason = "no initial pose was given yet";
   return true;

@@ -27,6 +27,8 @@ class Distractors {
   Distractors(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object)
       : renderer_(mesh), centre_object_(centre_object) {}
 
+  /// Images of this size are to be expected: remember() then asks for no memory.
+  void expectImages(const PinholeCamera& camera);
   /// Copies an image in which the object is seen. Cheap.
   void remember(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre);
   /// The camera's own motion since the last image.

@@ -66,6 +66,8 @@ class Reacquisition {
   void remember(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre) {
     distractors_.remember(depth, camera, T_camera_centre);
   }
+  /// Images of this size are to be expected.
+  void expectImages(const PinholeCamera& camera) { distractors_.expectImages(camera); }
   /// The camera's own motion since the last image.
   void moveCamera(const Pose& T_now_before) { distractors_.moveCamera(T_now_before); }
 
