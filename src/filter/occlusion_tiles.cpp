@@ -288,6 +288,7 @@ void OcclusionTiles::countOffspring(const std::vector<int>& source) {
   offspring_.assign(static_cast<std::size_t>(num_particles_), 0);
   for (const int parent : source) ++offspring_[static_cast<std::size_t>(parent)];
   reference_changes_.clear();
+  reference_changes_.reserve(static_cast<std::size_t>(num_particles_));  // never more, and not in a later frame
   for (int particle = 0; particle < num_particles_; ++particle) {
     const int offspring = offspring_[static_cast<std::size_t>(particle)];
     if (offspring > 1) reference_changes_.push_back({particle, offspring - 1});
