@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace depth_object_tracker {
@@ -16,21 +17,34 @@ constexpr double kMostNat = 5.0;
 }  // namespace
 
 void Distractors::expectImages(const PinholeCamera& camera) {
-  depth_m_.reserve(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
+  bytes_.reserve(sizeof(float) * static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
 }
 
 void Distractors::remember(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre) {
-  const auto width = static_cast<std::size_t>(depth.width);
-  depth_m_.resize(width * static_cast<std::size_t>(depth.height));
-  for (int row = 0; row < depth.height; ++row) {
-    float* target = depth_m_.data() + static_cast<std::size_t>(row) * width;
-    for (int col = 0; col < depth.width; ++col) target[col] = depth.at(row, col);
+  const std::size_t pixel_bytes = depth.pixel_type == DepthImageView::PixelType::kUint16 ? 2 : 4;
+  const std::size_t row_bytes = pixel_bytes * static_cast<std::size_t>(depth.width);
+  const auto rows = static_cast<std::size_t>(depth.height);
+  bytes_.resize(row_bytes * rows);
+  for (std::size_t row = 0; row < rows; ++row) {
+    std::memcpy(bytes_.data() + row * row_bytes, depth.data + row * depth.step, row_bytes);
   }
+  remembered_ = depth;
+  remembered_.data = bytes_.data();
+  remembered_.step = row_bytes;
   camera_ = camera;
   T_camera_centre_ = T_camera_centre;
   T_now_remembered_.setIdentity();
   is_unsearched_ = true;
   places_.clear();
+}
+
+void Distractors::readDepths() {
+  const auto width = static_cast<std::size_t>(camera_.width);
+  depth_m_.resize(width * static_cast<std::size_t>(camera_.height));
+  for (int row = 0; row < camera_.height; ++row) {
+    float* target = depth_m_.data() + static_cast<std::size_t>(row) * width;
+    for (int col = 0; col < camera_.width; ++col) target[col] = remembered_.at(row, col);
+  }
 }
 
 void Distractors::blankObject() {
@@ -46,6 +60,8 @@ void Distractors::blankObject() {
 std::optional<Distractors::Scene> Distractors::unsearched() {
   if (!is_unsearched_) return std::nullopt;
   is_unsearched_ = false;
+  remembered_.data = bytes_.data();  // this may have been moved since
+  readDepths();
   blankObject();
   Scene scene;
   scene.depth.data = reinterpret_cast<const std::uint8_t*>(depth_m_.data());

@@ -8,6 +8,7 @@
 #include "depth_object_tracker/geometry/triangle_mesh.h"
 #include "depth_object_tracker/render/depth_renderer.h"
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -47,10 +48,13 @@ class Distractors {
   const std::vector<Eigen::Vector3d>& places() const { return places_; }
 
  private:
+  void readDepths();
   void blankObject();
 
   DepthRenderer renderer_;
   Eigen::Vector3d centre_object_;
+  std::vector<std::uint8_t> bytes_;  ///< the remembered image as it came
+  DepthImageView remembered_;
   std::vector<float> depth_m_;
   PinholeCamera camera_;
   Pose T_camera_centre_ = Pose::Identity(), T_now_remembered_ = Pose::Identity();
