@@ -96,6 +96,8 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
   self.look_alikes.restart();
   self.free_turn.restart(std::sqrt(self.initial_variances->tail<3>().maxCoeff()));
   self.reacquisition.restart();
+  self.reacquisition.forgetScene();
+  self.since_remembered_s = Implementation::kLongAgoS;
   self.follows_hand = false;
   self.slip.reset();
   self.hand_velocity.setZero();

@@ -105,6 +105,14 @@ TEST_F(DistractorsOfAPlate, StayWhereTheyAreWhenTheCameraMoves) {
   EXPECT_GT(distractors_.against(T_now_before * arm_, T_now_before * object_, 0.5), 4.0);
 }
 
+TEST_F(DistractorsOfAPlate, AreNoneWhenWhatWasFollowedMayBeSomethingElse) {
+  distractors_.found({arm_});
+  remember();
+  distractors_.forget();
+  EXPECT_FALSE(distractors_.unsearched().has_value());
+  EXPECT_EQ(distractors_.against(arm_, object_, 0.5), 0.0);
+}
+
 TEST_F(DistractorsOfAPlate, AreForgottenWhenTheObjectIsSeenAgain) {
   distractors_.found({arm_});
   remember();

@@ -32,6 +32,11 @@ class Distractors {
   void expectImages(const PinholeCamera& camera);
   /// Copies an image in which the object is seen. Cheap.
   void remember(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre);
+  /// What was followed until now may not have been the object.
+  void forget() {
+    is_unsearched_ = false;
+    places_.clear();
+  }
   /// The camera's own motion since the last image.
   void moveCamera(const Pose& T_now_before) { T_now_remembered_ = T_now_before * T_now_remembered_; }
 
@@ -44,8 +49,6 @@ class Distractors {
   /// was last where it was remembered and then expected elsewhere.
   /// @param T_camera_expected of the object now. @param age_s of what is remembered.
   double against(const Pose& T_camera_centre, const Pose& T_camera_expected, double age_s) const;
-
-  const std::vector<Eigen::Vector3d>& places() const { return places_; }
 
  private:
   void readDepths();

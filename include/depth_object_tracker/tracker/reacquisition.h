@@ -66,6 +66,8 @@ class Reacquisition {
   void remember(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre) {
     distractors_.remember(depth, camera, T_camera_centre);
   }
+  /// What was followed until now may not have been the object.
+  void forgetScene() { distractors_.forget(); }
   /// Images of this size are to be expected.
   void expectImages(const PinholeCamera& camera) { distractors_.expectImages(camera); }
   /// The camera's own motion since the last image.
