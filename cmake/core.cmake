@@ -6,8 +6,10 @@ add_library(depth_object_tracker_core SHARED
   src/filter/likelihood_climb.cpp
   src/filter/mixture_moments.cpp
   src/filter/mode_search.cpp
+  src/filter/object_shape.cpp
   src/filter/occlusion_tiles.cpp
   src/filter/particle_filter.cpp
+  src/filter/pose_assessment.cpp
   src/filter/pose_statistics.cpp
   src/filter/random.cpp
   src/filter/resampling.cpp

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "depth_object_tracker/filter/depth_likelihood.h"
 
-#include "depth_object_tracker/model/pixel_likelihood.h"
 #include "depth_object_tracker/render/depth_renderer.h"
 
 #include <algorithm>
@@ -12,94 +11,11 @@
 namespace depth_object_tracker {
 namespace {
 
-double boundingRadius(const TriangleMesh& mesh, const Eigen::Vector3d& centre) {
-  double squared = 0.0;
-  for (const Eigen::Vector3f& vertex : mesh.vertices) {
-    squared = std::max(squared, (vertex.cast<double>() - centre).squaredNorm());
-  }
-  return std::sqrt(squared);
-}
-
-/// How far (rms) a simplified mesh may be from the surface [m]: little against the noise of a pixel, and against its
-/// size on the object. Noise averages out over the pixels, the error of a mesh much less.
-/// @param cell_m [m] side of a grid cell at the object.
-double allowedLevelError(double depth_m, double cell_m, const PixelModelConfig& config) {
-  constexpr double kShareOfNoise = 0.07, kShareOfCell = 0.03;
-  return std::min(kShareOfNoise * surfaceNoiseStddev(depth_m, config), kShareOfCell * cell_m);
-}
-
-constexpr double kCoarsestLevelErrorM = 0.002;
-
 /// Of the outline, in cells. On a coarse grid it is known to a fraction of a cell at best: cells are in or out as a
 /// whole.
 double edgeStddev(double edge_stddev_px, int factor) {
   constexpr double kCellStddev = 0.3;
   return edge_stddev_px > 0.0 ? std::hypot(kCellStddev, edge_stddev_px / factor) : 0.0;
-}
-
-MeasuredPixel broadened(MeasuredPixel pixel, float extra_stddev_m) {
-  if (extra_stddev_m <= 0.0f || !pixel.hasReading()) return pixel;
-  const float shrink = 1.0f / std::hypot(1.0f, extra_stddev_m * pixel.inverse_stddev);
-  pixel.inverse_stddev *= shrink;
-  if (pixel.visible_peak > kBackgroundPeak) pixel.visible_peak *= shrink;
-  return pixel;
-}
-
-/// What is seen at a depth is there without the object as well: it speaks neither for it nor against it.
-bool isBackgroundAt(const MeasuredPixel& pixel, float depth) {
-  constexpr float kSameStddevs = 4.0f;
-  return pixel.visible_peak <= kBackgroundPeak && std::abs(pixel.depth - depth) * pixel.inverse_stddev < kSameStddevs;
-}
-
-/// Adds what one covered pixel with a reading says about how well a pose fits.
-void assessPixel(const MeasuredPixel& pixel, float depth, float coverage, float p_occluded, const PixelModel& model,
-                 PoseAssessment& sum) {
-  if (isBackgroundAt(pixel, depth)) return;
-  const PixelRatios ratios = pixelRatios(model, pixel, depth);
-  const float visible = (1.0f - p_occluded) * ratios.visible, occluded = p_occluded * ratios.occluded;
-  const float total = (1.0f - coverage) + coverage * (visible + occluded);
-  const double not_occluded = visible / (visible + occluded);
-  constexpr float kThroughStddevs = 6.0f;
-  ++sum.measured_pixels;
-  sum.through_pixels += (pixel.depth - depth) * pixel.inverse_stddev > kThroughStddevs ? 1 : 0;
-  if (pixel.visible_peak <= 0.0f) return;  // something else is seen there
-  sum.visible_pixels += (1.0f - p_occluded) * ratios.surface / (visible + occluded);
-  sum.achieved += not_occluded * std::log(total);
-  // A visible pixel's log density has the mean of a Gaussian's: half a nat below its peak.
-  const double peak = (1.0f - p_occluded) * pixel.visible_peak;
-  sum.expected += not_occluded * (std::log(1.0 + coverage * (peak - 1.0)) - 0.5);
-}
-
-/// A table or board that is taken for one of the object's faces goes on beyond the outline; an object ends there.
-void assessSurroundings(const MeasuredPixel& pixel, float surface_depth, PoseAssessment& sum) {
-  constexpr float kSameSurfaceStddevs = 4.0f;
-  if (isBackgroundAt(pixel, surface_depth)) return;
-  ++sum.surrounding_pixels;
-  const float offset = (pixel.depth - surface_depth) * pixel.inverse_stddev;
-  if (std::abs(offset) < kSameSurfaceStddevs) ++sum.continued_pixels;
-  if (offset >= kSameSurfaceStddevs) ++sum.beyond_pixels;
-}
-
-/// Where a surface is seen, and whether that is the object's, or hides it.
-struct SeenSurface {
-  float depth = 0.0f;      ///< reading [m]; 0 = says nothing
-  bool is_object = false;  ///< else it hides the object
-};
-
-SeenSurface seenSurface(const MeasuredPixel& pixel, float object_depth) {
-  constexpr float kSameStddevs = 3.0f, kHiddenStddevs = 5.0f;
-  const float in_front = (object_depth - pixel.depth) * pixel.inverse_stddev;
-  if (!pixel.hasReading() || in_front < -kSameStddevs) return {};
-  if (in_front > kHiddenStddevs) return {pixel.depth, false};
-  return in_front < kSameStddevs ? SeenSurface{pixel.depth, true} : SeenSurface{};
-}
-
-/// What hides a part of the object stands before it. A board that is taken for one of its faces does not: the rest of
-/// the object would be behind the same board.
-void assessEdge(const SeenSurface& a, const SeenSurface& b, float largest_step_m, PoseAssessment& sum) {
-  if (a.depth <= 0.0f || b.depth <= 0.0f || a.is_object == b.is_object) return;
-  ++sum.hidden_edges;
-  if (std::abs(a.depth - b.depth) < largest_step_m) ++sum.merging_edges;
 }
 
 Linearisation unpacked(const LinearisationSums& sums) {
@@ -114,17 +30,6 @@ Linearisation unpacked(const LinearisationSums& sums) {
 
 }  // namespace
 
-double PoseAssessment::visibleShare() const {
-  constexpr double kUsuallyMeasured = 0.5;  // dark and steep surfaces have fewer readings
-  const double of = std::max<double>(measured_pixels, kUsuallyMeasured * covered_pixels);
-  return of > 0.0 ? std::min(1.0, visible_pixels / of) : 0.0;
-}
-
-ObjectShape::ObjectShape(const TriangleMesh& mesh, const Eigen::Vector3d& centre, bool level_of_detail)
-    : levels(std::make_shared<RenderLevels>(mesh, level_of_detail ? kCoarsestLevelErrorM : 0.0)),
-      centre_object(centre),
-      radius_m(boundingRadius(mesh, centre)) {}
-
 DepthLikelihood::DepthLikelihood(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object,
                                  const PixelModelConfig& pixel_config, const OcclusionChainConfig& occlusion_config,
                                  int num_particles, int num_threads, bool level_of_detail)
@@ -136,7 +41,6 @@ DepthLikelihood::DepthLikelihood(const ObjectShape& shape, const PixelModelConfi
                                  std::shared_ptr<WorkerPool> pool)
     : shape_(shape),
       object_(&shape.levels->finest()),
-      pixel_config_(pixel_config),
       edge_stddev_px_(pixel_config.edge_stddev_px),
       image_(pixel_config),
       outline_(edgeStddev(edge_stddev_px_, 1)),
@@ -208,7 +112,7 @@ CellBox DepthLikelihood::prepareRegion(const std::vector<Pose>& T_camera_centre)
 void DepthLikelihood::chooseLevel(const std::vector<Pose>& T_camera_centre) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Pose& pose : T_camera_centre) nearest = std::min(nearest, std::max(pose.translation().z(), kNearPlaneM));
-  const double allowed = allowedLevelError(nearest, nearest / image_.grid().camera.fx, pixel_config_);
+  const double allowed = allowedLevelError(nearest, nearest / image_.grid().camera.fx, image_.config());
   is_level_chosen_ = true;
   object_ = &shape_.levels->choose(allowed);
 }
@@ -329,62 +233,13 @@ TileFit DepthLikelihood::countFit(const Pose& T_camera_centre, double tolerance_
   constexpr double kNoiseStddevs = 3.0;
   if (!isPrepared(T_camera_centre)) return TileFit();
   return countTileFit(render(T_camera_centre, false, thread), image_.planes(), static_cast<float>(tolerance_m),
-                      static_cast<float>(kNoiseStddevs * pixel_config_.depth_noise_per_m));
+                      static_cast<float>(kNoiseStddevs * image_.config().depth_noise_per_m));
 }
 
 PoseAssessment DepthLikelihood::assess(const Pose& T_camera_centre, int thread, double extra_stddev_m) {
-  PoseAssessment result;
   image_.prepare(boundingBox(T_camera_centre));
   const DepthTile& tile = render(T_camera_centre, false, thread);
-  const TileLikelihoodInput data = input();
-  const float* const* beliefs = meanBeliefs(tile, thread);
-  result.log_likelihood = tileLogLikelihood(tile, data, beliefs, static_cast<float>(extra_stddev_m));
-  for (int row = 0; row < tile.rows; ++row) {
-    for (int col = 0; col < tile.cols; ++col) {
-      const int cell = row * tile.stride + col;
-      const bool is_covered = tile.depth()[cell] < std::numeric_limits<float>::infinity();
-      if (!(tile.coverage()[cell] > 0.0f)) continue;
-      result.covered_pixels += is_covered ? 1 : 0;
-      const MeasuredPixel pixel =
-          broadened(image_.pixel(tile.row_begin + row, tile.col_begin + col), static_cast<float>(extra_stddev_m));
-      if (!pixel.hasReading()) continue;
-      if (!is_covered) {
-        assessSurroundings(pixel, tile.softDepth()[cell], result);
-        continue;
-      }
-      const float* tile_beliefs = beliefs[row / kTileSize * tile.tile_cols + col / kTileSize];
-      const float stored = tile_beliefs != nullptr ? tile_beliefs[row % kTileSize * kTileSize + col % kTileSize]
-                                                   : data.belief.unmeasured;
-      const float depth = tile.depth()[cell], coverage = tile.coverage()[cell];
-      assessPixel(pixel, depth, coverage, believedOcclusion(data.model, memory_.probability(stored), pixel, depth),
-                  data.model, result);
-    }
-  }
-  assessHiddenEdges(tile, result);
-  return result;
-}
-
-void DepthLikelihood::assessHiddenEdges(const DepthTile& tile, PoseAssessment& result) const {
-  constexpr float kSteepest = 1.5f, kNoiseStddevs = 4.0f;
-  const auto surface = [&](int row, int col) {
-    if (row < 0 || col < 0) return SeenSurface();
-    const int small_tile = row / kTileSize * tile.tile_cols + col / kTileSize;
-    if (tile.touched[static_cast<std::size_t>(small_tile)] == 0) return SeenSurface();
-    const float depth = tile.depth()[row * tile.stride + col];
-    if (!(depth < std::numeric_limits<float>::infinity())) return SeenSurface();
-    return seenSurface(image_.pixel(tile.row_begin + row, tile.col_begin + col), depth);
-  };
-  const auto focal_px = static_cast<float>(image_.grid().camera.fx);
-  for (int row = 0; row < tile.rows; ++row) {
-    for (int col = 0; col < tile.cols; ++col) {
-      const SeenSurface here = surface(row, col);
-      if (here.depth <= 0.0f) continue;
-      const float noise_m = static_cast<float>(pixel_config_.depth_noise_per_m) * here.depth * here.depth;
-      const float largest_step_m = kSteepest * here.depth / focal_px + kNoiseStddevs * noise_m;
-      assessEdge(here, surface(row, col - 1), largest_step_m, result);
-      assessEdge(here, surface(row - 1, col), largest_step_m, result);
-    }
-  }
+  return assessTile(tile, image_, input(), meanBeliefs(tile, thread), static_cast<float>(extra_stddev_m));
 }
 
 bool DepthLikelihood::explains(const Pose& T_camera_centre) {

@@ -2,49 +2,20 @@
 // The paper's image likelihood: every pixel that the object covers at a pose, occlusion marginalised per particle.
 #pragma once
 
+#include "depth_object_tracker/filter/object_shape.h"
 #include "depth_object_tracker/filter/occlusion_tiles.h"
+#include "depth_object_tracker/filter/pose_assessment.h"
 #include "depth_object_tracker/filter/pose_likelihood.h"
 #include "depth_object_tracker/filter/score_scatter.h"
 #include "depth_object_tracker/filter/tile_fit.h"
 #include "depth_object_tracker/filter/tile_likelihood.h"
 #include "depth_object_tracker/filter/worker_pool.h"
-#include "depth_object_tracker/geometry/triangle_mesh.h"
 #include "depth_object_tracker/model/measured_image.h"
-#include "depth_object_tracker/render/render_levels.h"
 
 #include <memory>
 #include <vector>
 
 namespace depth_object_tracker {
-
-/// How well one pose explains the frame, pixel by pixel.
-struct PoseAssessment {
-  int covered_pixels = 0;
-  int measured_pixels = 0;      ///< ... of which with a depth reading
-  double visible_pixels = 0.0;  ///< expected number of measured pixels where the object is visible
-  double log_likelihood = 0.0;  ///< [nat]
-  double achieved = 0.0;        ///< log ratio [nat] summed with the pixels' probability not to be occluded
-  double expected = 0.0;        ///< ... and what the sensor model expects of it at the true pose
-  int through_pixels = 0;       ///< measured pixels with a reading clearly behind the object
-  int surrounding_pixels = 0;   ///< measured pixels just outside of the outline
-  int continued_pixels = 0;     ///< ... of which with a reading that carries on the surface beside them
-  int beyond_pixels = 0;        ///< ... of which with a reading clearly behind: the object ends there
-  int hidden_edges = 0;         ///< neighbouring pixels, the object seen in one and hidden in the other
-  int merging_edges = 0;  ///< ... of which without a step between their readings: what hides carries on what is seen
-
-  /// Of the object, in [0, 1]: where most of it has no reading little is seen of it, however well the rest fits.
-  double visibleShare() const;
-};
-
-/// The rendered shape of an object, and the point of it that poses are about.
-struct ObjectShape {
-  /// @param level_of_detail false: only the mesh itself.
-  ObjectShape(const TriangleMesh& mesh, const Eigen::Vector3d& centre_object, bool level_of_detail = true);
-
-  std::shared_ptr<const RenderLevels> levels;
-  Eigen::Vector3d centre_object;  ///< [m]
-  double radius_m;                ///< of the bounding sphere about the centre
-};
 
 class DepthLikelihood : public PoseLikelihood {
  public:
@@ -134,13 +105,11 @@ class DepthLikelihood : public PoseLikelihood {
   int tileIndex(const DepthTile& tile, int index) const;
   TileLikelihoodInput input() const;
   TileGeometry geometryOf(const Pose& T_camera_centre, const DepthTile& tile) const;
-  void assessHiddenEdges(const DepthTile& tile, PoseAssessment& result) const;
   double updateParticle(int index, const Pose& T_camera_centre, int thread);
 
   ObjectShape shape_;
   const RenderObject* object_;  // the level that is used for this image; never null
   bool is_level_chosen_ = false;
-  PixelModelConfig pixel_config_;
   double edge_stddev_px_;  // full resolution
   MeasuredImage image_;
   OutlineCoverage outline_;

@@ -102,6 +102,7 @@ class MeasuredImage {
   bool isPrepared(const CellBox& box) const { return prepared_.contains(intersect(box, imageBox())); }
 
   const SamplingGrid& grid() const { return grid_; }
+  const PixelModelConfig& config() const { return config_; }
   CellBox imageBox() const { return {0, grid_.camera.height, 0, grid_.camera.width}; }
 
   /// Share of the whole image with a reading in range, from an even sample of its cells.
