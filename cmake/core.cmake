@@ -59,6 +59,7 @@ add_library(depth_object_tracker_core SHARED
   src/tracker/free_turn.cpp
   src/tracker/held_view.cpp
   src/tracker/illusions.cpp
+  src/tracker/image_draws.cpp
   src/tracker/input_check.cpp
   src/tracker/live_parameters.cpp
   src/tracker/look_alikes.cpp

@@ -62,11 +62,9 @@ PoseFinder::PoseFinder(const ObjectShape& shape, const TriangleMesh& mesh, doubl
       max_depth_m_(std::min(config.max_depth_m, kFarthestM)),
       random_(seed),
       pool_(std::move(pool)),
-      object_points_(objectPoints(mesh, shape.centre_object)),
-      pairs_(object_points_, diameter_m),
-      votes_(static_cast<std::size_t>(pool_->numThreads()), PairVotes(pairs_)),
-      sparse_(object_points_, diameter_m),
-      table_draws_(mesh, shape.centre_object, object_points_, seed),
+      image_draws_(objectPoints(mesh, shape.centre_object), diameter_m, seed, pool_),
+      sparse_(image_draws_.objectPoints(), diameter_m),
+      table_draws_(mesh, shape.centre_object, image_draws_.objectPoints(), seed),
       coarse_(shape, readingsAlone(config), OcclusionChainConfig(), 1, pool_),
       fine_(shape, readingsAlone(config), OcclusionChainConfig(), 1, pool_),
       pixel_config_(config) {}
@@ -115,25 +113,31 @@ void PoseFinder::setImage(const DepthImageView& depth, const PinholeCamera& came
 
 std::vector<FoundPose> PoseFinder::searchEverywhere(const SearchEffort& effort) {
   findBackground();
-  image_points_ = imagePoints(depth_, camera_, diameter_m_, kPatchReachPerSize * feature_m_, max_depth_m_, step_px_);
+  image_draws_.setPoints(pointsBesideBackground(), camera_, step_px_);
+  if (!image_draws_.canDraw()) return {};
+  std::vector<Pose> poses = image_draws_.drawVotes(drawn_, effort.references);
+  drawn_ += static_cast<std::uint64_t>(effort.references);
+  const std::vector<Pose> drawn = drawBest(effort, [this](std::uint64_t number) { return image_draws_.draw(number); });
+  poses.insert(poses.end(), drawn.begin(), drawn.end());
+  return climbBest(poses, effort, true);
+}
+
+std::vector<OrientedPoint> PoseFinder::pointsBesideBackground() const {
+  std::vector<OrientedPoint> points =
+      imagePoints(depth_, camera_, diameter_m_, kPatchReachPerSize * feature_m_, max_depth_m_, step_px_);
   const auto in_background = [this](const OrientedPoint& point) {
     return std::any_of(background_.begin(), background_.end(), [&](const ImagePlane& plane) {
       return std::abs(plane.heightOf(point.point)) < planeToleranceM(point.point.z());
     });
   };
-  image_points_.erase(std::remove_if(image_points_.begin(), image_points_.end(), in_background), image_points_.end());
-  if (image_points_.empty() || object_points_.empty()) return {};
-  listNeighbours();
-  std::vector<Pose> poses = drawVotes(effort.references);
-  const std::vector<Pose> drawn = drawBest(effort, [this](std::uint64_t number) { return drawAnywhere(number); });
-  poses.insert(poses.end(), drawn.begin(), drawn.end());
-  return climbBest(poses, effort, true);
+  points.erase(std::remove_if(points.begin(), points.end(), in_background), points.end());
+  return points;
 }
 
 std::vector<FoundPose> PoseFinder::searchOnTable(const SearchEffort& effort) {
   findBackground();
   table_draws_.setImage(planes_, depth_, camera_, max_depth_m_, step_px_);
-  if (!table_draws_.hasSomethingStanding() || object_points_.empty()) return {};
+  if (!table_draws_.hasSomethingStanding() || image_draws_.objectPoints().empty()) return {};
   std::vector<FoundPose> found =
       climbBest(drawBest(effort, [this](std::uint64_t number) { return table_draws_.draw(number); }), effort, true);
   found.erase(std::remove_if(found.begin(), found.end(),
@@ -187,111 +191,6 @@ void PoseFinder::findBackground() {
   }
   coarse_.setBackground(background);
   fine_.setBackground(background);
-}
-
-void PoseFinder::listNeighbours() {
-  const int rows = depth_.height / step_px_ + 1, cols = depth_.width / step_px_ + 1;
-  point_at_.assign(static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols), -1);
-  for (std::size_t i = 0; i < image_points_.size(); ++i) {
-    const Eigen::Vector2d pixel = camera_.project(image_points_[i].point);
-    const int row = static_cast<int>(pixel.y()) / step_px_, col = static_cast<int>(pixel.x()) / step_px_;
-    if (row < 0 || row >= rows || col < 0 || col >= cols) continue;
-    point_at_[static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(col)] =
-        static_cast<int>(i);
-  }
-}
-
-std::optional<Pose> PoseFinder::drawPair(std::uint64_t number) const {
-  constexpr std::uint32_t kTries = 4;
-  const auto uniform = [&](std::uint32_t index) { return random_.uniform(RandomPurpose::kSearch, number, index); };
-  const OrientedPoint& first =
-      image_points_[static_cast<std::size_t>(uniform(0) * static_cast<double>(image_points_.size()))];
-  const Eigen::Vector2d pixel = camera_.project(first.point);
-  const double reach_px = reachPx(first);
-  for (std::uint32_t k = 0; k < kTries; ++k) {
-    const auto at = [&](std::uint32_t index) { return uniform(1 + 7 * k + index); };
-    const OrientedPoint* second = neighbourOf(pixel, reach_px * at(1), 2.0 * M_PI * at(0));
-    if (second == nullptr) continue;
-    auto pose = pairs_.layOn(first, *second, {at(2), at(3), at(4), at(5)}, at(6));
-    if (pose) return pose;
-  }
-  return std::nullopt;
-}
-
-/// How far from a point of the object another may be seen; right before the lens not beyond the image.
-double PoseFinder::reachPx(const OrientedPoint& point) const {
-  return std::min(camera_.fx * pairs_.mostDistanceM() / point.point.z(),
-                  static_cast<double>(depth_.width + depth_.height));
-}
-
-/// The image's point at a distance and in a direction from a pixel. @return null where there is none.
-const OrientedPoint* PoseFinder::neighbourOf(const Eigen::Vector2d& pixel, double radius_px, double turn_rad) const {
-  const int rows = depth_.height / step_px_ + 1, cols = depth_.width / step_px_ + 1;
-  const int row = static_cast<int>(std::floor((pixel.y() + radius_px * std::sin(turn_rad)) / step_px_));
-  const int col = static_cast<int>(std::floor((pixel.x() + radius_px * std::cos(turn_rad)) / step_px_));
-  if (row < 0 || row >= rows || col < 0 || col >= cols) return nullptr;
-  const int index =
-      point_at_[static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(col)];
-  return index < 0 ? nullptr : &image_points_[static_cast<std::size_t>(index)];
-}
-
-std::vector<Pose> PoseFinder::drawVotes(int references) {
-  constexpr int kPosesPerReference = 5;
-  voted_.resize(static_cast<std::size_t>(references));
-  const auto task = [&](int index, int thread) {
-    const auto i = static_cast<std::size_t>(index);
-    PairVotes& votes = votes_[static_cast<std::size_t>(thread)];
-    letNeighboursVote(drawn_ + i, votes);
-    voted_[i].clear();
-    votes.bestPoses(kPosesPerReference, voted_[i]);
-  };
-  pool_->run(references, std::cref(task));
-  drawn_ += voted_.size();
-  std::vector<Pose> poses;
-  for (const std::vector<Pose>& some : voted_) poses.insert(poses.end(), some.begin(), some.end());
-  return poses;
-}
-
-void PoseFinder::letNeighboursVote(std::uint64_t number, PairVotes& votes) const {
-  const auto uniform = [&](std::uint32_t index) { return random_.uniform(RandomPurpose::kSearch, number, index); };
-  const OrientedPoint& reference =
-      image_points_[static_cast<std::size_t>(uniform(0) * static_cast<double>(image_points_.size()))];
-  votes.start(reference);
-  const Eigen::Vector2d pixel = camera_.project(reference.point) / step_px_;
-  const int rows = depth_.height / step_px_ + 1, cols = depth_.width / step_px_ + 1;
-  const int reach = static_cast<int>(reachPx(reference)) / step_px_;
-  constexpr int kMostReach = 70;  // some 20,000 voters at most, however near the reference is
-  const int stride = 1 + reach / (kMostReach + 1);
-  const int row = static_cast<int>(pixel.y()), col = static_cast<int>(pixel.x());
-  for (int r = std::max(0, row - reach); r <= std::min(rows - 1, row + reach); r += stride) {
-    for (int c = std::max(0, col - reach); c <= std::min(cols - 1, col + reach); c += stride) {
-      const int cell = r * cols + c;
-      const int other = point_at_[static_cast<std::size_t>(cell)];
-      if (other < 0) continue;
-      constexpr std::uint32_t kNumbers = 5;
-      const auto at = [&](std::uint32_t index) {
-        return uniform(1 + kNumbers * static_cast<std::uint32_t>(other) + index);
-      };
-      votes.vote(image_points_[static_cast<std::size_t>(other)], {at(0), at(1), at(2), at(3)}, at(4));
-    }
-  }
-}
-
-Pose PoseFinder::drawAnywhere(std::uint64_t number) const {
-  constexpr std::uint64_t kSingleEvery = 8;  // of one point: an object may show hardly more
-  if (number % kSingleEvery != 0) {
-    if (const auto pose = drawPair(number)) return *pose;
-  }
-  // Additive recurrences: all pairs of points with all turns, evenly however many are taken.
-  const auto fraction = [&](double step) {
-    const double value = static_cast<double>(number) * step;
-    return value - std::floor(value);
-  };
-  const auto pick = [&](double step, const std::vector<OrientedPoint>& points) -> const OrientedPoint& {
-    return points[static_cast<std::size_t>(fraction(step) * static_cast<double>(points.size()))];
-  };
-  return layOn(pick(0.8191725133961645, image_points_), pick(0.6710436067037893, object_points_),
-               2.0 * M_PI * fraction(0.5497004779019703));
 }
 
 template <typename Draw>

@@ -6,10 +6,8 @@
 #include "depth_object_tracker/filter/likelihood_climb.h"
 #include "depth_object_tracker/filter/random.h"
 #include "depth_object_tracker/render/known_occluders.h"
-#include "depth_object_tracker/tracker/oriented_points.h"
-#include "depth_object_tracker/tracker/pair_votes.h"
+#include "depth_object_tracker/tracker/image_draws.h"
 #include "depth_object_tracker/tracker/plane_finder.h"
-#include "depth_object_tracker/tracker/point_pairs.h"
 #include "depth_object_tracker/tracker/sparse_fit.h"
 #include "depth_object_tracker/tracker/table_draws.h"
 
@@ -80,13 +78,7 @@ class PoseFinder {
   };
   DepthImageView withoutTaken(KnownOccluders& occluders);
   void findBackground();
-  void listNeighbours();
-  std::optional<Pose> drawPair(std::uint64_t number) const;
-  std::vector<Pose> drawVotes(int references);
-  void letNeighboursVote(std::uint64_t number, PairVotes& votes) const;
-  double reachPx(const OrientedPoint& point) const;
-  const OrientedPoint* neighbourOf(const Eigen::Vector2d& pixel, double radius_px, double turn_rad) const;
-  Pose drawAnywhere(std::uint64_t number) const;
+  std::vector<OrientedPoint> pointsBesideBackground() const;
   template <typename Draw>
   std::vector<Pose> drawBest(const SearchEffort& effort, const Draw& draw);
   template <typename Judge>
@@ -102,10 +94,7 @@ class PoseFinder {
   double max_depth_m_;
   CounterRandom random_;
   std::shared_ptr<WorkerPool> pool_;
-  std::vector<OrientedPoint> object_points_, image_points_;
-  PointPairs pairs_;
-  std::vector<PairVotes> votes_;          // one for each thread
-  std::vector<std::vector<Pose>> voted_;  // by each reference
+  ImageDraws image_draws_;
   SparseFit sparse_;
   TableDraws table_draws_;
   DepthLikelihood coarse_, fine_;
@@ -117,7 +106,6 @@ class PoseFinder {
   bool has_background_ = false;
   std::vector<ImagePlane> planes_;      // of the image, once has_background_
   std::vector<ImagePlane> background_;  // those of them that no face of the object can be
-  std::vector<int> point_at_;           // of image_points_, on the grid of every step_px_ pixels; -1: none
   std::uint64_t drawn_ = 0;
   std::vector<Ranked> draws_;  // scratch
 };
