@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The published covariance: that of the particles, about the mesh origin, and as large as the errors are.
+#include "millimetre_view.h"
 #include "tracking_run.h"
 
 #include "depth_object_tracker/simulator/scene_simulator.h"
@@ -166,11 +167,7 @@ TEST(Calibration, NormalisedErrorsAreNearOneOverTwentySeeds) {
     int seed_count = 0;
     for (int k = 0; k < kFrames; ++k) {
       const SimulatedFrame& frame = simulator.render(k / 30.0);
-      DepthImageView view;
-      view.data = reinterpret_cast<const std::uint8_t*>(frame.depth_mm.data());
-      view.width = simulation.camera.width;
-      view.height = simulation.camera.height;
-      view.step = static_cast<std::size_t>(view.width) * 2;
+      const DepthImageView view = viewOf(frame.depth_mm, simulation.camera);
       const TrackerResult result = tracker.update(view, simulation.camera, frame.stamp_s);
       if (k < kSettleFrames) continue;
       const auto squared =

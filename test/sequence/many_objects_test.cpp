@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Four objects that cross each other, two of the same mesh: every tracker stays with its own.
+#include "millimetre_view.h"
+
 #include "depth_object_tracker/geometry/mesh_loader.h"
 #include "depth_object_tracker/simulator/crossing_scene.h"
 #include "depth_object_tracker/tools/pose_error.h"
@@ -83,11 +85,7 @@ class ManyObjects {
   /// Every tracker knows what the others said last: of this image or of the one before.
   void step() {
     const CrossingFrame& frame = scene_->render(num_frames_++ * kFrameS);
-    DepthImageView view;
-    view.data = reinterpret_cast<const std::uint8_t*>(frame.depth_mm.data());
-    view.width = config_.camera.width;
-    view.height = config_.camera.height;
-    view.step = 2 * static_cast<std::size_t>(view.width);
+    const DepthImageView view = viewOf(frame.depth_mm, config_.camera);
     for (std::size_t k = 0; k < players_.size(); ++k) {
       Player& player = *players_[k];
       const double begin_s = cpuSeconds();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "occluder_trial.h"
 
+#include "millimetre_view.h"
+
 #include "depth_object_tracker/robot/robot_occluder.h"
 #include "depth_object_tracker/simulator/static_world.h"
 #include "depth_object_tracker/tracker/object_tracker.h"
@@ -15,15 +17,6 @@ namespace {
 constexpr int kSettlingFrames = 5;
 constexpr double kFramesPerS = 30.0;
 constexpr double kBeginS = 10.0;  // of the joints' stamps: 0 would be no stamp
-
-DepthImageView viewOf(const SimulatedFrame& frame, const PinholeCamera& camera) {
-  DepthImageView view;
-  view.data = reinterpret_cast<const std::uint8_t*>(frame.depth_mm.data());
-  view.width = camera.width;
-  view.height = camera.height;
-  view.step = 2 * static_cast<std::size_t>(view.width);
-  return view;
-}
 
 }  // namespace
 
@@ -61,7 +54,7 @@ TrialErrors OccluderTrial::track(const std::optional<Eigen::Vector3d>& link_erro
     const double stamp_s = kBeginS + static_cast<double>(k) / kFramesPerS;
     state.addJointStates({stamp_s, joints.names, joints.positions, joints.velocities});
     if (occluder.place(state, T_camera_root, stamp_s) == 0) throw std::logic_error("no link was placed");
-    const TrackerResult result = tracker.update(viewOf(frame, config_.camera), config_.camera, frame.stamp_s,
+    const TrackerResult result = tracker.update(viewOf(frame.depth_mm, config_.camera), config_.camera, frame.stamp_s,
                                                 frame.control, link_error_camera_m ? &occluder : nullptr);
     const double error_m = (result.T_camera_object.translation() - frame.T_camera_object.translation()).norm();
     if (k > kSettlingFrames) errors.push_back(error_m);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A hand holds the object; a board hides it, but not the arm, which is about as round as the object.
+#include "millimetre_view.h"
+
 #include "depth_object_tracker/geometry/mesh_loader.h"
 #include "depth_object_tracker/simulator/scene_simulator.h"
 #include "depth_object_tracker/tracker/object_tracker.h"
@@ -39,11 +41,7 @@ TEST_P(AnArm, IsNotTakenForTheObjectThatItHolds) {
   double last_m = 0.0, seen_share = 0.0;
   for (int k = 0; k < GetParam().frames; ++k) {
     const SimulatedFrame& frame = simulator.render(k / 30.0);
-    DepthImageView view;
-    view.data = reinterpret_cast<const std::uint8_t*>(frame.depth_mm.data());
-    view.width = config.camera.width;
-    view.height = config.camera.height;
-    view.step = static_cast<std::size_t>(view.width) * 2;
+    const DepthImageView view = viewOf(frame.depth_mm, config.camera);
     const TrackerResult result = tracker.update(view, config.camera, frame.stamp_s);
     last_m = (result.T_camera_object.translation() - frame.T_camera_object.translation()).norm();
     hidden += frame.visible_pixels == 0 ? 1 : 0;

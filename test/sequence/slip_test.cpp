@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Slip, decided from depth and the robot's motion, against the simulator's truth.
+#include "millimetre_view.h"
+
 #include "depth_object_tracker/simulator/scene_simulator.h"
 #include "depth_object_tracker/tracker/object_tracker.h"
 
@@ -26,12 +28,7 @@ void track(const std::string& object, Scenario scenario, std::uint64_t seed, std
   tracker.initialise(simulator.roughInitialPose());
   for (int k = 0; k < 120; ++k) {
     const SimulatedFrame& frame = simulator.render(k / 30.0);
-    DepthImageView view;
-    view.data = reinterpret_cast<const std::uint8_t*>(frame.depth_mm.data());
-    view.width = config.camera.width;
-    view.height = config.camera.height;
-    view.step = 2 * static_cast<std::size_t>(view.width);
-    view.pixel_type = DepthImageView::PixelType::kUint16;
+    const DepthImageView view = viewOf(frame.depth_mm, config.camera);
     const TrackerResult result = tracker.update(view, config.camera, frame.stamp_s, frame.control);
     if (result.slip && k > 5) decisions.emplace_back(result.slip->statistic, frame.slipping);
   }

@@ -2,6 +2,7 @@
 // The simulated camera's noise in numbers, beside that of recorded and other simulated sequences where they are at
 // hand.
 #include "noise_statistics.h"
+#include "millimetre_view.h"
 
 #include "depth_object_tracker/geometry/mesh_loader.h"
 #include "depth_object_tracker/simulator/scene_simulator.h"
@@ -32,11 +33,7 @@ NoiseStatistics ofSimulation(const std::string& object, std::uint64_t seed) {
   NoiseStatistics statistics(mesh);
   for (int k = 0; k < kMaxFrames; ++k) {
     const SimulatedFrame& frame = simulator.render(0.5 * k);
-    DepthImageView view;
-    view.data = reinterpret_cast<const std::uint8_t*>(frame.depth_mm.data());
-    view.width = config.camera.width;
-    view.height = config.camera.height;
-    view.step = 2 * static_cast<std::size_t>(view.width);
+    const DepthImageView view = viewOf(frame.depth_mm, config.camera);
     statistics.add(view, config.camera, frame.T_camera_object);
   }
   return statistics;

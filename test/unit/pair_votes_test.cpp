@@ -1,58 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pairs of points vote for poses; what a search found is told from what fits by chance.
 #include "depth_object_tracker/tracker/pair_votes.h"
+
+#include "brick_points.h"
 #include "tracker/pose_evidence.h"
 
 #include "depth_object_tracker/filter/random.h"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
-
 namespace depth_object_tracker {
 namespace {
 
-/// Three sides of a brick with unequal edges, as a camera sees them.
-std::vector<OrientedPoint> brick() {
-  std::vector<OrientedPoint> points;
-  const Eigen::Vector3d half(0.03, 0.05, 0.08);
-  constexpr int kSteps = 7;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int i = 0; i < kSteps; ++i) {
-      for (int j = 0; j < kSteps; ++j) {
-        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-        OrientedPoint point{Eigen::Vector3d::Zero(), Eigen::Vector3d::Unit(axis)};
-        point.point[axis] = half[axis];
-        point.point[u] = half[u] * (2.0 * (i + 0.5) / kSteps - 1.0);
-        point.point[v] = half[v] * (2.0 * (j + 0.5) / kSteps - 1.0);
-        points.push_back(point);
-      }
-    }
-  }
-  return points;
-}
-
-Pose somewhere() {
-  Pose T = Pose::Identity();
-  T.linear() = Eigen::AngleAxisd(1.2, Eigen::Vector3d(0.3, -0.8, 0.5).normalized()).toRotationMatrix();
-  T.translation() = Eigen::Vector3d(0.1, -0.05, 0.8);
-  return T;
-}
-
 class BrickVotes : public ::testing::Test {
  protected:
-  BrickVotes() : points_(brick()), pairs_(points_, 0.196), votes_(pairs_) {}
+  BrickVotes() : points_(brickPoints()), pairs_(points_, kBrickDiameterM), votes_(pairs_) {}
 
   /// Lets every point of the brick at `T` but one vote about that one.
   std::vector<Pose> poses(const Pose& T, std::size_t reference, int count) {
-    const auto moved = [&](const OrientedPoint& point) {
-      return OrientedPoint{T * point.point, T.linear() * point.normal};
-    };
-    votes_.start(moved(points_[reference]));
+    const std::vector<OrientedPoint> moved = movedBy(T, points_);
+    votes_.start(moved[reference]);
     const CounterRandom random(3);
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const auto number = [&](std::uint32_t k) { return random.uniform(RandomPurpose::kSearch, i, k); };
-      if (i != reference) votes_.vote(moved(points_[i]), {number(0), number(1), number(2), number(3)}, number(4));
+      if (i != reference) votes_.vote(moved[i], {number(0), number(1), number(2), number(3)}, number(4));
     }
     std::vector<Pose> result;
     votes_.bestPoses(count, result);
