@@ -43,6 +43,7 @@ if(TARGET depth_object_tracker_robot AND TARGET depth_object_tracker_simulator)
   target_link_libraries(robot_occluder_ablation PRIVATE
     depth_object_tracker_simulator depth_object_tracker_robot depth_object_tracker_warnings CLI11::CLI11)
   target_compile_definitions(robot_occluder_ablation PRIVATE PROJECT_SOURCE_FOLDER="${PROJECT_SOURCE_DIR}")
+  target_include_directories(robot_occluder_ablation PRIVATE ${CMAKE_CURRENT_LIST_DIR}/../support)
 endif()
 
 if(WITH_ROS)
