@@ -15,6 +15,7 @@ constexpr double kShakingScore = 0.6, kSomethingVisible = 0.04, kShakenForS = 0.
 constexpr double kPoorScoreOfLittle = 0.8, kPoorForS = 0.2;  // little that is seen often fits a little worse
 constexpr double kLookAroundForS = 2.0;                      // at every image; in vain: from time to time
 constexpr double kFirstCheckS = 0.75, kLastCheckS = 3.0;     // after a find, each twice as late as the one before
+constexpr double kFall = 0.1, kLevelOverS = 0.5, kNewForS = 0.3, kOldEveryS = 0.1;
 constexpr double kOddNat = -2.5, kProvenNat = 2.0;
 constexpr double kLongestIntervalIfOddS = 1.0;
 constexpr double kShortestIntervalS = 0.3, kLongestIntervalS = 8.0;
@@ -22,6 +23,12 @@ constexpr double kShortestIntervalS = 0.3, kLongestIntervalS = 8.0;
 }  // namespace
 
 void Doubt::update(double score, double visible_fraction, bool is_seen, double dt_s) {
+  since_nearby_s_ = mayHaveJumped() ? dt_s : since_nearby_s_ + dt_s;
+  since_poor_s_ = score < kPoorScore ? 0.0 : since_poor_s_ + dt_s;
+  const bool falls = score < level_ - kFall;
+  since_fall_s_ = falls ? 0.0 : since_fall_s_ + dt_s;
+  level_ = falls ? score : level_ + (1.0 - std::exp(-dt_s / kLevelOverS)) * (score - level_);
+  since_around_s_ += dt_s;
   poor_s_ = is_seen && score >= kPoorScore ? 0.0 : poor_s_ + dt_s;
   const bool little_fits = !is_seen && score < kPoorScoreOfLittle && poor_s_ > kPoorForS;
   is_poor_ = (is_seen && score < kPoorScore) || little_fits;
@@ -42,7 +49,8 @@ Doubt::Look Doubt::look() const {
   if (is_seen_ && since_found_s_ > next_check_s_) return Look::kEverywhere;
   if ((is_mediocre_ || (is_seen_ && isOdd())) && is_due) return Look::kEverywhere;
   if (is_seen_ && shaken_s_ < kShakenForS && since_look_s_ > kLooksWhileShakenS) return Look::kEverywhere;
-  return is_poor_ && (is_due || poor_s_ < kLookAroundForS) ? Look::kAround : Look::kNowhere;
+  const bool is_new = since_fall_s_ < kNewForS || (poor_s_ < kLookAroundForS && since_around_s_ > kOldEveryS);
+  return is_poor_ && (is_due || is_new) ? Look::kAround : Look::kNowhere;
 }
 
 void Doubt::found() {
@@ -57,7 +65,12 @@ void Doubt::judged(double log_odds) {
   if (log_odds > kProvenNat) is_unproven_ = false;
 }
 
+bool Doubt::mayHaveJumped() const {
+  return since_poor_s_ > kNewForS || since_fall_s_ < kNewForS || since_nearby_s_ > kOldEveryS;
+}
+
 void Doubt::looked(Look look) {
+  if (look != Look::kNowhere) since_around_s_ = 0.0;
   if (look == Look::kEverywhere && since_found_s_ > next_check_s_) {
     next_check_s_ = next_check_s_ < kLastCheckS ? 2.0 * next_check_s_ : std::numeric_limits<double>::infinity();
   }

@@ -202,7 +202,7 @@ ProcessStep ObjectTracker::Implementation::makeStep(double dt_s, const std::opti
                    is_hidden_in_hand ? config.process.hidden_diffusion_scale : slip.noiseScale());
   if (is_hidden_in_hand) step.excludeSuddenMotion();
   followHand(step, control && control->isFollowed(), dt_s);
-  if (mayReacquire() && !is_hidden_in_hand) {
+  if (mayReacquire() && !is_hidden_in_hand && doubt.mayHaveJumped()) {
     search.around(last_mean.mean, searchVariances(kPoorFitReachS), kHypotheses, hypotheses.if_poor);
   }
   return step;

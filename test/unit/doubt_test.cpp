@@ -40,6 +40,46 @@ TEST(DoubtOf, APoorFitComesBackEverMoreRarely) {
   }
 }
 
+/// Runs images that all fit alike. @return how many of them were worth comparing with poses nearby.
+int comparisons(Doubt& doubt, int images, double score) {
+  int count = 0;
+  for (int k = 0; k < images; ++k) {
+    count += doubt.mayHaveJumped() ? 1 : 0;
+    doubt.update(score, kPlainSight, true, kFrameS);
+  }
+  return count;
+}
+
+TEST(DoubtOf, WhatFittedWellMayHaveJumpedInAnyImage) {
+  Doubt doubt;
+  EXPECT_EQ(comparisons(doubt, 90, kGoodScore), 90);
+}
+
+TEST(DoubtOf, WhatFitsBadlyForLongMayHaveJumpedInEveryThirdOrFourthImage) {
+  Doubt doubt;
+  comparisons(doubt, 90, kGoodScore);
+  EXPECT_GE(comparisons(doubt, 9, kPoorScore), 9) << "at first in every image";
+  EXPECT_LE(comparisons(doubt, 90, kPoorScore), 36);
+  EXPECT_GE(comparisons(doubt, 90, kPoorScore), 22);
+}
+
+TEST(DoubtOf, WhatFitsBadlyAndThenWorseMayHaveJumpedJustNow) {
+  Doubt doubt;
+  comparisons(doubt, 90, kPoorScore);
+  EXPECT_LE(comparisons(doubt, 9, kPoorScore), 4);
+  doubt.update(kPoorScore - 0.3, kPlainSight, true, kFrameS);
+  EXPECT_TRUE(doubt.mayHaveJumped());
+  EXPECT_NE(doubt.look(), Doubt::Look::kNowhere);
+}
+
+TEST(DoubtOf, LooksAroundGoOnForTwoSecondsButNotInEveryImage) {
+  Doubt doubt;
+  const std::vector<double> times = looks(doubt, 10.0, kPoorScore, Doubt::Look::kAround);
+  ASSERT_GE(times.size(), 10u);
+  EXPECT_LE(times.size(), 32u);
+  EXPECT_LT(times.back(), 2.2);
+}
+
 TEST(DoubtOf, AFindIsThreeLooksAtAllOfTheImageHoweverWellItFits) {
   Doubt doubt;
   doubt.update(kGoodScore, kPlainSight, true, kFrameS);

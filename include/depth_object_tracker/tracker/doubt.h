@@ -20,6 +20,9 @@ class Doubt {
 
   /// What the next image asks for.
   Look look() const;
+  /// Whether the next image is worth comparing with poses nearby if it fits badly: from time to time only where the
+  /// last ones fitted as badly, which may be the mesh.
+  bool mayHaveJumped() const;
   /// What was found may have been something else, and the object itself may come into view later.
   void found();
   /// @param log_odds [nat] that what is followed is the object, by the image alone.
@@ -40,7 +43,12 @@ class Doubt {
   bool is_seen_ = false;
   bool is_unproven_ = false, is_odd_ = false;
   double poor_s_ = 0.0;
-  double shaken_s_ = 1e6;  // since the image contradicted the pose
+  double shaken_s_ = 1e6;        // since the image contradicted the pose
+  double level_ = 1.0;           // of the score, lately
+  double since_poor_s_ = 1e6;    // the fit was poor, seen or not
+  double since_fall_s_ = 1e6;    // the score fell
+  double since_nearby_s_ = 1e6;  // mayHaveJumped() was true
+  double since_around_s_ = 1e6;  // any look
   double since_look_s_ = 1e6;
   double since_found_s_ = 1e6;
   double next_check_s_ = std::numeric_limits<double>::infinity();  // after a find
