@@ -10,6 +10,7 @@ add_library(depth_object_tracker_core SHARED
   src/filter/occlusion_tiles.cpp
   src/filter/particle_filter.cpp
   src/filter/pose_assessment.cpp
+  src/filter/pose_smoother.cpp
   src/filter/pose_statistics.cpp
   src/filter/random.cpp
   src/filter/resampling.cpp

@@ -83,6 +83,7 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
   self.is_given = true;
   self.around_given.clear();
   self.filter.initialise(T_camera_centre);
+  self.smoother.restart();
   self.last_mean = PoseStatistics();
   self.last_mean.mean = T_camera_centre;
   self.is_seen = false;
@@ -140,6 +141,7 @@ void ObjectTracker::moveCamera(const Pose& T_now_before) {
   Implementation& self = *implementation_;
   const Eigen::Matrix3d R_now_before = T_now_before.linear();
   self.filter.moveCamera(T_now_before);
+  self.smoother.moveCamera(T_now_before);
   self.hand_velocity = rotated(self.hand_velocity, R_now_before);
   if (self.hidden_start) self.hidden_start->T_camera_centre = T_now_before * self.hidden_start->T_camera_centre;
   self.last_mean.mean = T_now_before * self.last_mean.mean;

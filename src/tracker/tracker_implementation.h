@@ -5,6 +5,7 @@
 
 #include "depth_object_tracker/filter/depth_likelihood.h"
 #include "depth_object_tracker/filter/particle_filter.h"
+#include "depth_object_tracker/filter/pose_smoother.h"
 #include "depth_object_tracker/model/slip_estimator.h"
 #include "depth_object_tracker/tracker/doubt.h"
 #include "depth_object_tracker/tracker/frame_clock.h"
@@ -55,6 +56,7 @@ class ObjectTracker::Implementation {
   StatusMonitor status;
   SlipEstimator slip;
   CovarianceCalibration calibration;
+  PoseSmoother smoother;
   PoseSearch search;
   HeldView held_view;
   struct HiddenStart {
@@ -157,7 +159,9 @@ class ObjectTracker::Implementation {
   void rememberFit(const FilterEstimate& estimate, double dt_s);
   /// From time to time, where the object is surely seen.
   void learnFit(const DepthImageView& depth, double dt_s);
-  void writeEstimate(const FilterEstimate& estimate);
+  /// The pose of the centre in the light of the images before: to be told, not to be tracked from.
+  Pose smoothed(const FilterEstimate& estimate, double dt_s);
+  void writeEstimate(const FilterEstimate& estimate, const Pose& T_camera_centre);
   void writeStatus(const PoseAssessment& assessment);
 };
 

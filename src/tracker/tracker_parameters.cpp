@@ -83,6 +83,7 @@ Bindings filterBindings() {
     bindNumber(FIELD(filter, prior_share), 0.0, 1.0, "informed: share of particles that still draw from the process model alone"),
     bindNumber(FIELD(filter, likelihood_exponent), 0.0, 1.0, "power of each frame's likelihood (pixels are not independent); 1 = the paper, 0 = chosen from the sampling factor"),
     bindNumber(FIELD(filter, resampling_threshold), 0.0, 1.0, "resample when the effective share of particles is below; 1 = every frame (the paper)"),
+    bindSwitch(FIELD(filter, smooth_estimate), "the published pose is averaged over the images in which the object rests or moves evenly; false = every image by itself (the paper)"),
     bindNumber(FIELD(filter, seed), 0, std::numeric_limits<int>::max(), "seed of the random numbers: the same seed gives the same result"),
     bindNumber(FIELD(filter, num_threads), 1, 256, "number of threads; the result does not depend on it"),
   };

@@ -75,6 +75,7 @@ bool ObjectTracker::Implementation::waitForTheHandToShowIt(const DepthImageView&
   filter.initialise(hidden_start->T_camera_centre);
   likelihood.resetOcclusion();
   status.restart();
+  smoother.restart();
   initialising_s = 0.0;
   is_blind = is_hidden;
   is_given = !is_hidden;

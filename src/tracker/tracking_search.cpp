@@ -157,6 +157,7 @@ void ObjectTracker::Implementation::turnToLookAlike(FilterEstimate& estimate, Po
   if (!better) return;
   const Pose turn = estimate.pose.mean.inverse() * *better;
   free_turn.turned(turn);
+  smoother.restart();
   look_alikes.moved(turn);
   filter.moveInObject(turn);
   estimate.pose.mean = *better;
@@ -190,6 +191,7 @@ void ObjectTracker::Implementation::startAt(const Pose& T_camera_centre) {
   turn_prior = TurnPrior();
   free_turn.restart(turn_prior.stddev_rad);
   filter.initialise(T_camera_centre);
+  smoother.restart();
   likelihood.resetOcclusion();
   status.restart();
   initial_variances = foundVariances();

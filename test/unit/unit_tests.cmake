@@ -23,6 +23,7 @@ add_tracker_test(estimate_board_unit_tests SOURCES unit/estimate_board_test.cpp)
 add_tracker_test(filter_unit_tests SOURCES
   unit/filter_calibration_test.cpp
   unit/filter_occlusion_tiles_test.cpp
+  unit/filter_pose_smoother_test.cpp
   unit/filter_pose_statistics_test.cpp
   unit/filter_random_test.cpp
   unit/filter_resampling_test.cpp

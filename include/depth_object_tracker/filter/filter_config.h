@@ -18,6 +18,7 @@ struct FilterConfig {
   double likelihood_exponent = 0.0;   ///< gamma; 0 = chosen from the sampling factor (see likelihoodExponent)
   double resampling_threshold = 0.5;  ///< resample when the effective share of particles is below; 1 = every frame
   std::uint64_t seed = 1;
+  bool smooth_estimate = true;  ///< the published pose is averaged over images, see PoseSmoother; false = the paper
   int num_threads = 1;
 };
 
