@@ -22,6 +22,7 @@ constexpr double kRestM = 2e-5, kRestRad = 2e-4;  // each image
 constexpr double kFirstSpeedM = 1.0, kFirstSpeedRad = 4.0;
 // The covariance also tells errors that last, which no average takes away, and angles that the image does not show.
 constexpr double kMostNoiseM = 1e-3, kMostNoiseRad = 0.0175;
+constexpr double kLeastSpeedM = 1e-3, kLeastSpeedRad = 5e-3;  // standard deviation that any velocity has
 constexpr double kLongestGapS = 0.5;
 constexpr double kJump = 40.0;  // squared Mahalanobis distance
 constexpr double kLeastProbability = 1e-6;
@@ -59,7 +60,7 @@ Pose PoseSmoother::update(const Pose& pose, const Matrix6d& covariance, const Ve
     start(pose, noise);
     return pose;
   }
-  const Vector6d displacement = meanDisplacement();
+  const Vector6d displacement = mean().head<6>();
   pose_ = perturb(pose_, displacement);
   for (State& state : states_) state.mean.head<6>() -= displacement;
   return pose_;
@@ -161,10 +162,24 @@ bool PoseSmoother::measure(const Vector6d& displacement, const Matrix6d& noise) 
   return true;
 }
 
-Vector6d PoseSmoother::meanDisplacement() const {
-  Vector6d mean = Vector6d::Zero();
-  for (std::size_t k = 0; k < kModels; ++k) mean += probabilities_[k] * states_[k].mean.head<6>();
+PoseSmoother::Vector12d PoseSmoother::mean() const {
+  Vector12d mean = Vector12d::Zero();
+  for (std::size_t k = 0; k < kModels; ++k) mean += probabilities_[k] * states_[k].mean;
   return mean;
+}
+
+Vector6d PoseSmoother::velocity() const {
+  return mean().tail<6>();
+}
+
+Matrix6d PoseSmoother::velocityCovariance() const {
+  const Vector6d middle = velocity();
+  Matrix6d covariance = squares(kLeastSpeedM, kLeastSpeedRad).asDiagonal();
+  for (std::size_t k = 0; k < kModels; ++k) {
+    const Vector6d apart = states_[k].mean.tail<6>() - middle;
+    covariance += probabilities_[k] * (states_[k].covariance.bottomRightCorner<6, 6>() + apart * apart.transpose());
+  }
+  return covariance;
 }
 
 }  // namespace depth_object_tracker

@@ -159,9 +159,9 @@ class ObjectTracker::Implementation {
   void rememberFit(const FilterEstimate& estimate, double dt_s);
   /// From time to time, where the object is surely seen.
   void learnFit(const DepthImageView& depth, double dt_s);
-  /// The pose of the centre in the light of the images before: to be told, not to be tracked from.
-  Pose smoothed(const FilterEstimate& estimate, double dt_s);
-  void writeEstimate(const FilterEstimate& estimate, const Pose& T_camera_centre);
+  /// Pose and velocity in the light of the images before: to be told, not to be tracked from.
+  FilterEstimate smoothed(FilterEstimate estimate, double dt_s);
+  void writeEstimate(const FilterEstimate& estimate);
   void writeStatus(const PoseAssessment& assessment);
 };
 

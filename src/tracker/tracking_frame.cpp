@@ -96,7 +96,7 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
   status.update(assessment, time.dt_s, is_blind);
   result.grasped = control && control->grasped;
   result.downsampling = grid.factor;
-  writeEstimate(estimate, smoothed(estimate, time.dt_s));
+  writeEstimate(smoothed(estimate, time.dt_s));
   writeStatus(assessment);
   estimateSlip(estimate, time.dt_s);
   rememberFit(estimate, time.dt_s);
@@ -251,28 +251,34 @@ double ObjectTracker::Implementation::diffusionScale() const {
   return config.process.hidden_diffusion_scale + (1.0 - config.process.hidden_diffusion_scale) * share;
 }
 
-Pose ObjectTracker::Implementation::smoothed(const FilterEstimate& estimate, double dt_s) {
+FilterEstimate ObjectTracker::Implementation::smoothed(FilterEstimate estimate, double dt_s) {
   if (!config.filter.smooth_estimate || is_blind || !step_in_use || status.state() != TrackerState::kTracking) {
     smoother.restart();
-    return estimate.pose.mean;
+    return estimate;
   }
-  return smoother.update(estimate.pose.mean, estimate.pose.covariance,
-                         step_in_use->controlDisplacement(estimate.pose.mean), dt_s);
+  const Vector6d known_motion = step_in_use->controlDisplacement(estimate.pose.mean);
+  estimate.pose.mean = smoother.update(estimate.pose.mean, estimate.pose.covariance, known_motion, dt_s);
+  const Matrix6d covariance = smoother.velocityCovariance();
+  if (covariance.trace() < estimate.velocity_covariance.trace()) {  // else it has only just started
+    estimate.velocity = smoother.velocity();
+    estimate.velocity_covariance = covariance;
+  }
+  return estimate;
 }
 
-void ObjectTracker::Implementation::writeEstimate(const FilterEstimate& estimate, const Pose& T_camera_centre) {
-  const Eigen::Matrix3d R = T_camera_centre.linear();
+void ObjectTracker::Implementation::writeEstimate(const FilterEstimate& estimate) {
+  const Eigen::Matrix3d R = estimate.pose.mean.linear();
   const Eigen::Vector3d origin_from_centre = -(R * centre_object);
   Matrix6d covariance = estimate.pose.covariance;
   // Particles are held together while nothing is seen, to be near when it is again.
   const bool may_go_anywhere = is_blind && mayReacquire() && !follows_hand;
   if (may_go_anywhere) covariance.diagonal() += hiddenVariances(seen_velocity, unseen_s);
-  if (!is_blind && mayReacquire()) covariance = free_turn.widened(covariance, T_camera_centre);
-  if (const auto axis = freeAxisInCamera(T_camera_centre, symmetries)) {
+  if (!is_blind && mayReacquire()) covariance = free_turn.widened(covariance, estimate.pose.mean);
+  if (const auto axis = freeAxisInCamera(estimate.pose.mean, symmetries)) {
     covariance.bottomRightCorner<3, 3>() += kFreeAngleVariance * (*axis) * axis->transpose();
   }
   result.has_pose = !is_anywhere;
-  result.T_camera_object = toObject(T_camera_centre);
+  result.T_camera_object = toObject(estimate.pose.mean);
   result.covariance = transportCovariance(covariance, origin_from_centre);
   result.twist = estimate.velocity + hand_velocity;
   result.twist.head<3>() += result.twist.tail<3>().cross(origin_from_centre);

@@ -77,6 +77,8 @@ TEST(PoseSmootherTest, EvenMotionIsFollowedWithoutDelay) {
     EXPECT_LT(left[k].tail<3>().norm(), 0.02 * kSpeedRad * kFrameS) << k;
   }
   EXPECT_LT(smoother.probabilityOfRest(), 0.01);
+  EXPECT_NEAR(smoother.velocity()[0], kSpeedM, 0.02 * kSpeedM);
+  EXPECT_NEAR(smoother.velocity().tail<3>().norm(), kSpeedRad, 0.02 * kSpeedRad);
 }
 
 TEST(PoseSmootherTest, SlowMotionIsNotTakenForRest) {
@@ -85,6 +87,24 @@ TEST(PoseSmootherTest, SlowMotionIsNotTakenForRest) {
   const std::vector<Vector6d> left = errors(
       smoother, [](double t) { return at(kSpeedM * t, 0.0); }, 200);
   EXPECT_LT(rms(left, 20, 200, 0, 3), kNoiseM);
+}
+
+TEST(PoseSmootherTest, VelocitiesAreAsUncertainAsTheyAreSaidToBe) {
+  constexpr double kSpeedM = 0.1;
+  constexpr int kImages = 300, kSettling = 10;
+  PoseSmoother smoother;
+  double squared = 0.0;
+  for (int k = 0; k < kImages; ++k) {
+    const double t = k * kFrameS;
+    const Pose measured = perturb(at(kSpeedM * std::sin(t), 0.0), noise(static_cast<std::uint64_t>(k)));
+    smoother.update(measured, noiseCovariance(), Vector6d::Zero(), k == 0 ? 0.0 : kFrameS);
+    if (k < kSettling) continue;
+    const Vector6d off = smoother.velocity() - kSpeedM * std::cos(t) * Vector6d::Unit(0);
+    squared += off.dot(smoother.velocityCovariance().llt().solve(off)) / 6.0;
+  }
+  const double mean = squared / (kImages - kSettling);
+  EXPECT_LT(mean, 2.0);
+  EXPECT_GT(mean, 0.05);
 }
 
 TEST(PoseSmootherTest, StartAndStopNeitherLagNorOvershoot) {

@@ -26,6 +26,10 @@ class PoseSmoother {
   /// The camera was moved: a pose P before is T_now_before * P now.
   void moveCamera(const Pose& T_now_before);
 
+  /// After an update [m/s, rad/s], beyond the known motion; and the covariance of its error.
+  Vector6d velocity() const;
+  Matrix6d velocityCovariance() const;
+
   /// Of rest, after an update, in [0, 1].
   double probabilityOfRest() const { return is_started_ ? probabilities_[0] : 0.0; }
 
@@ -44,7 +48,7 @@ class PoseSmoother {
   void predict(double dt_s);
   /// @return false when no model explains the displacement.
   bool measure(const Vector6d& displacement, const Matrix6d& noise);
-  Vector6d meanDisplacement() const;
+  Vector12d mean() const;
 
   bool is_started_ = false;
   Pose pose_ = Pose::Identity();
