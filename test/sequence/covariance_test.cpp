@@ -43,6 +43,7 @@ class PublishedCovariance : public testing::Test {
     TrackerConfig config;
     config.filter.num_particles = 400;
     config.filter.proposal = proposal;
+    config.filter.smooth_estimate = false;  // what is told is what the particles know
     if (proposal == Proposal::kProcess) {
       // All particles count, and turn little: the covariance is theirs to first order.
       config.filter.likelihood_exponent = 1e-6;

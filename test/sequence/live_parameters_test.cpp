@@ -92,6 +92,7 @@ class LiveRun {
   static TrackerConfig config(Proposal proposal) {
     TrackerConfig config;
     config.filter.proposal = proposal;
+    config.filter.smooth_estimate = false;  // what the filter does is what is told
     config.filter.num_particles = 100;
     config.process.sudden_motion_share = 0.0;
     return config;
