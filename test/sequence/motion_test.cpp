@@ -40,7 +40,7 @@ TEST_P(MotionOf, AnObjectAtRestIsHeldStill) {
     positions.push_back(run.result().T_camera_object.translation());
     rotations.push_back(difference(run.result().T_camera_object, restingPose()).tail<3>());
     EXPECT_EQ(run.result().state, TrackerState::kTracking);
-    EXPECT_LT(run.result().twist.head<3>().norm(), 0.05);
+    EXPECT_LT(run.result().twist.head<3>().norm(), 0.005);
   }
   Eigen::Vector3d mean = Eigen::Vector3d::Zero(), mean_rotation = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < positions.size(); ++k) {
@@ -54,9 +54,9 @@ TEST_P(MotionOf, AnObjectAtRestIsHeldStill) {
   }
   run.print("at rest");
   std::printf("jitter %.2f mm, %.2f deg\n", 1e3 * std::sqrt(jitter), std::sqrt(rotation_jitter) * 180.0 / M_PI);
-  EXPECT_LT(run.medianError(), 0.003);
-  EXPECT_LT(std::sqrt(jitter), 0.0015);
-  EXPECT_LT(std::sqrt(rotation_jitter), 0.02);
+  EXPECT_LT(run.medianError(), 0.0005);
+  EXPECT_LT(std::sqrt(jitter), 0.00015);
+  EXPECT_LT(std::sqrt(rotation_jitter) * 180.0 / M_PI, 0.1);
 }
 
 TEST_F(Motion, ConstantVelocityIsFollowed) {
