@@ -125,6 +125,13 @@ double needed(const Pose& from, const Pose& to, const TurnPrior& prior) {
   return kSurelyNat + 0.5 * turned * turned;
 }
 
+/// What a finger that passes for a handle gives away: its surface goes on where the object's ends. [nat] for a pose and
+/// against the present one.
+double outlineEvidence(DepthLikelihood& likelihood, const Pose& pose, const Pose& now) {
+  constexpr double kContinuedNat = 0.5;  // each cell of the outline
+  return kContinuedNat * (likelihood.assess(now, 0).continued_pixels - likelihood.assess(pose, 0).continued_pixels);
+}
+
 bool isNearAny(const Pose& T, const std::vector<Pose>& others, const Symmetries& symmetries) {
   const auto near = [&](const Pose& other) {
     return angle(foldOntoReference(T, other, symmetries).linear().transpose() * other.linear()) < kApartRad;
@@ -193,7 +200,10 @@ std::optional<Pose> LookAlikeCheck::findBetter(DepthLikelihood& likelihood, cons
   if (prior.was_followed) pending_.reset();
   rankCandidates(likelihood, T_camera_centre);
   const double now = likelihood.logLikelihood(T_camera_centre, 0);
-  const auto evidence = [&](const Pose& pose) { return exponent * (likelihood.logLikelihood(pose, 0) - now); };
+  const auto evidence = [&](const Pose& pose) {
+    const double nat = exponent * (likelihood.logLikelihood(pose, 0) - now);
+    return std::abs(nat) > kWorthFollowingNat ? nat + outlineEvidence(likelihood, pose, T_camera_centre) : nat;
+  };
 
   // Of a pose that was followed only what is as good already is worth the climb.
   const double least = likelihood.broadLogLikelihood(T_camera_centre, kBroadM, 0) -
