@@ -47,13 +47,12 @@ Vector6d squares(double linear, double angular) {
 
 }  // namespace
 
-Pose PoseSmoother::update(const Pose& pose, const Matrix6d& covariance, const Vector6d& known_motion, double dt_s) {
+Pose PoseSmoother::update(const Pose& pose, const Matrix6d& covariance, double dt_s) {
   const Matrix6d noise = noiseOf(covariance);
   if (!is_started_ || !(dt_s > 0.0) || dt_s > kLongestGapS) {
     start(pose, noise);
     return pose;
   }
-  pose_ = perturb(pose_, known_motion);
   mix(dt_s);
   predict(dt_s);
   if (!measure(difference(pose, pose_), noise)) {

@@ -252,15 +252,14 @@ double ObjectTracker::Implementation::diffusionScale() const {
 }
 
 FilterEstimate ObjectTracker::Implementation::smoothed(FilterEstimate estimate, double dt_s) {
-  if (!config.filter.smooth_estimate || is_blind || !step_in_use || status.state() != TrackerState::kTracking) {
+  if (!config.filter.smooth_estimate || is_blind || status.state() != TrackerState::kTracking) {
     smoother.restart();
     return estimate;
   }
-  const Vector6d known_motion = step_in_use->controlDisplacement(estimate.pose.mean);
-  estimate.pose.mean = smoother.update(estimate.pose.mean, estimate.pose.covariance, known_motion, dt_s);
+  estimate.pose.mean = smoother.update(estimate.pose.mean, estimate.pose.covariance, dt_s);
   const Matrix6d covariance = smoother.velocityCovariance();
   if (covariance.trace() < estimate.velocity_covariance.trace()) {  // else it has only just started
-    estimate.velocity = smoother.velocity();
+    estimate.velocity = smoother.velocity() - hand_velocity;        // to be added to it
     estimate.velocity_covariance = covariance;
   }
   return estimate;

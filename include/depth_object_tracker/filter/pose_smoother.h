@@ -18,15 +18,14 @@ class PoseSmoother {
 
   /// @param pose of one image, of the object's centre in the camera's frame.
   /// @param covariance of its error [m^2, rad^2], camera axes, about the centre.
-  /// @param known_motion [m, rad] since the last image, see perturb(): a robot's; else zero.
   /// @param dt_s [s] > 0 since the last image.
   /// @return the pose in the light of those before it; `pose` itself after a jump that no motion explains.
-  Pose update(const Pose& pose, const Matrix6d& covariance, const Vector6d& known_motion, double dt_s);
+  Pose update(const Pose& pose, const Matrix6d& covariance, double dt_s);
 
   /// The camera was moved: a pose P before is T_now_before * P now.
   void moveCamera(const Pose& T_now_before);
 
-  /// After an update [m/s, rad/s], beyond the known motion; and the covariance of its error.
+  /// After an update [m/s, rad/s]; and the covariance of its error.
   Vector6d velocity() const;
   Matrix6d velocityCovariance() const;
 
