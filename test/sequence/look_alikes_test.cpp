@@ -9,7 +9,9 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace depth_object_tracker {
 namespace {
@@ -110,6 +112,54 @@ TEST_F(LookAlikeChecked, TheRightTurnIsKept) {
   for (int k = 0; k < 12; ++k) {
     EXPECT_FALSE(check_.findBetter(likelihood_, centre_truth_, kExponent, TurnPrior{k % 2 == 0, kAnyTurn}, 1.0 / 30.0));
   }
+}
+
+TEST_F(LookAlikeChecked, AFingerThatGoesOnBeyondTheHandleIsNone) {
+  // The handle is behind the mug; beside the mug is something as deep as the handle would be, but broader.
+  double hidden_rad = 0.0, beside_rad = 0.0;
+  int fewest = std::numeric_limits<int>::max(), most = 0;
+  for (double angle = 0.0; angle < 2.0 * M_PI; angle += 0.1) {
+    const int covered = likelihood_.assess(turned(angle), 0).covered_pixels;
+    if (covered < fewest) hidden_rad = angle;
+    if (covered > most) beside_rad = angle;
+    fewest = std::min(fewest, covered);
+    most = std::max(most, covered);
+  }
+  constexpr int kBroaderPx = 8, kGapPx = 5, kWallMm = 200;
+  const std::vector<std::uint16_t> beside =
+      scene_.render(truth_ * Eigen::AngleAxisd(beside_rad, Eigen::Vector3d::UnitZ()));
+  std::vector<std::uint16_t> image = scene_.render(truth_ * Eigen::AngleAxisd(hidden_rad, Eigen::Vector3d::UnitZ()));
+  const std::vector<std::uint16_t> without = image;
+  const int width = scene_.camera().width, height = scene_.camera().height;
+  const auto at = [width](int row, int col) { return static_cast<std::size_t>(row * width + col); };
+  const std::uint16_t wall = *std::max_element(without.begin(), without.end());
+  const auto isMug = [&](int row, int col) {
+    const bool is_inside = row >= 0 && col >= 0 && row < height && col < width;
+    return is_inside && without[at(row, col)] > 0 && without[at(row, col)] < wall - kWallMm;
+  };
+  const auto isBesideMug = [&](int row, int col) {
+    return !isMug(row, col - kGapPx) && !isMug(row, col + kGapPx) && !isMug(row - kGapPx, col) &&
+           !isMug(row + kGapPx, col);
+  };
+  for (int row = kBroaderPx; row < height - kBroaderPx; ++row) {
+    for (int col = kBroaderPx; col < width - kBroaderPx; ++col) {
+      const std::uint16_t handle = beside[at(row, col)];
+      if (handle == 0 || handle > wall - kWallMm || isMug(row, col)) continue;
+      for (int r = row - kBroaderPx; r <= row + kBroaderPx; ++r) {
+        for (int c = col - kBroaderPx; c <= col + kBroaderPx; ++c) {
+          const bool is_own = r == row && c == col;
+          if ((is_own || image[at(r, c)] == without[at(r, c)]) && isBesideMug(r, c)) image[at(r, c)] = handle;
+        }
+      }
+    }
+  }
+  likelihood_.setImage(scene_.view(image), makeSamplingGrid(scene_.camera(), 2), 1.0 / 30.0);
+  const Pose behind = turned(hidden_rad), as_handle = turned(beside_rad);
+  likelihood_.prepare({as_handle, behind});
+  constexpr double kEnoughNat = 9.0;
+  ASSERT_GT(kExponent * (likelihood_.logLikelihood(as_handle, 0) - likelihood_.logLikelihood(behind, 0)), kEnoughNat)
+      << "pixel by pixel the finger is the better handle";
+  EXPECT_FALSE(findBetter(behind, TurnPrior{false, kAnyTurn}));
 }
 
 TEST_F(LookAlikeChecked, WhatLookedBetterWhenItCouldNotBeIsNoReasonLater) {
