@@ -18,7 +18,7 @@ struct MotionModel {
 constexpr std::array<MotionModel, 3> kMotions = {{{0.0, 0.0}, {0.5, 3.0}, {5.0, 40.0}}};
 constexpr double kChangesPerS = 1.5;  // from one kind of motion to another
 // At rest: what grows nevertheless, for errors that last.
-constexpr double kRestM = 2e-5, kRestRad = 2e-4;  // each image
+constexpr double kRestM = 1.1e-4, kRestRad = 1.1e-3;  // standard deviation after a second
 constexpr double kFirstSpeedM = 1.0, kFirstSpeedRad = 4.0;
 // The covariance also tells errors that last, which no average takes away, and angles that the image does not show.
 constexpr double kMostNoiseM = 1e-3, kMostNoiseRad = 0.0175;
@@ -66,6 +66,7 @@ Pose PoseSmoother::update(const Pose& pose, const Matrix6d& covariance, double d
 }
 
 void PoseSmoother::moveCamera(const Pose& T_now_before) {
+  if (!is_started_) return;
   pose_ = T_now_before * pose_;
   const Eigen::Matrix3d R = T_now_before.linear();
   Matrix12d turn = Matrix12d::Zero();
@@ -118,7 +119,7 @@ void PoseSmoother::predict(double dt_s) {
   resting.mean.tail<6>().setZero();
   resting.covariance.topRightCorner<6, 6>().setZero();
   resting.covariance.bottomRows<6>().setZero();
-  resting.covariance.topLeftCorner<6, 6>().diagonal() += squares(kRestM, kRestRad);
+  resting.covariance.topLeftCorner<6, 6>().diagonal() += dt_s * squares(kRestM, kRestRad);
   Matrix12d transition = Matrix12d::Identity();
   transition.topRightCorner<6, 6>().diagonal().setConstant(dt_s);
   for (std::size_t k = 1; k < kModels; ++k) {
