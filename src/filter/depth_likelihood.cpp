@@ -242,6 +242,14 @@ PoseAssessment DepthLikelihood::assess(const Pose& T_camera_centre, int thread, 
   return assessTile(tile, image_, input(), meanBeliefs(tile, thread), static_cast<float>(extra_stddev_m));
 }
 
+PoseAssessment DepthLikelihood::assessWithEdges(const Pose& T_camera_centre, int thread) {
+  image_.prepare(boundingBox(T_camera_centre));
+  const DepthTile& tile = render(T_camera_centre, false, thread);
+  PoseAssessment assessment = assessTile(tile, image_, input(), meanBeliefs(tile, thread), 0.0f);
+  assessHiddenEdges(tile, image_, assessment);
+  return assessment;
+}
+
 bool DepthLikelihood::explains(const Pose& T_camera_centre) {
   constexpr double kOfWhatIsExpected = 0.85, kLeastVisible = 0.2;
   const PoseAssessment fit = assess(T_camera_centre, 0);

@@ -106,8 +106,23 @@ void assessPixels(const DepthTile& tile, const MeasuredImage& image, const TileL
   }
 }
 
-/// Where what is seen of the object meets what hides it.
-void assessHiddenEdges(const DepthTile& tile, const MeasuredImage& image, PoseAssessment& sum) {
+}  // namespace
+
+double PoseAssessment::visibleShare() const {
+  constexpr double kUsuallyMeasured = 0.5;  // dark and steep surfaces have fewer readings
+  const double of = std::max<double>(measured_pixels, kUsuallyMeasured * covered_pixels);
+  return of > 0.0 ? std::min(1.0, visible_pixels / of) : 0.0;
+}
+
+PoseAssessment assessTile(const DepthTile& tile, const MeasuredImage& image, const TileLikelihoodInput& input,
+                          const float* const* tile_beliefs, float extra_stddev_m) {
+  PoseAssessment result;
+  result.log_likelihood = tileLogLikelihood(tile, input, tile_beliefs, extra_stddev_m);
+  assessPixels(tile, image, input, tile_beliefs, extra_stddev_m, result);
+  return result;
+}
+
+void assessHiddenEdges(const DepthTile& tile, const MeasuredImage& image, PoseAssessment& assessment) {
   constexpr float kSteepest = 1.5f, kNoiseStddevs = 4.0f;
   const auto surface = [&](int row, int col) {
     if (row < 0 || col < 0) return SeenSurface();
@@ -125,27 +140,10 @@ void assessHiddenEdges(const DepthTile& tile, const MeasuredImage& image, PoseAs
       if (here.depth <= 0.0f) continue;
       const float noise_m = noise_per_m * here.depth * here.depth;
       const float largest_step_m = kSteepest * here.depth / focal_px + kNoiseStddevs * noise_m;
-      assessEdge(here, surface(row, col - 1), largest_step_m, sum);
-      assessEdge(here, surface(row - 1, col), largest_step_m, sum);
+      assessEdge(here, surface(row, col - 1), largest_step_m, assessment);
+      assessEdge(here, surface(row - 1, col), largest_step_m, assessment);
     }
   }
-}
-
-}  // namespace
-
-double PoseAssessment::visibleShare() const {
-  constexpr double kUsuallyMeasured = 0.5;  // dark and steep surfaces have fewer readings
-  const double of = std::max<double>(measured_pixels, kUsuallyMeasured * covered_pixels);
-  return of > 0.0 ? std::min(1.0, visible_pixels / of) : 0.0;
-}
-
-PoseAssessment assessTile(const DepthTile& tile, const MeasuredImage& image, const TileLikelihoodInput& input,
-                          const float* const* tile_beliefs, float extra_stddev_m) {
-  PoseAssessment result;
-  result.log_likelihood = tileLogLikelihood(tile, input, tile_beliefs, extra_stddev_m);
-  assessPixels(tile, image, input, tile_beliefs, extra_stddev_m, result);
-  assessHiddenEdges(tile, image, result);
-  return result;
 }
 
 }  // namespace depth_object_tracker

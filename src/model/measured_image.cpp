@@ -43,8 +43,17 @@ void MeasuredImage::setImage(const DepthImageView& view, const SamplingGrid& gri
 }
 
 void MeasuredImage::setMissingRatio(float ratio) {
+  if (ratio == missing_ratio_) return;
+  const bool are_marked = missing_ratio_ < 1.0f;
   missing_ratio_ = ratio;
-  prepared_ = CellBox();
+  if (!are_marked) {
+    prepared_ = CellBox();
+    return;
+  }
+  for (int row = prepared_.row_begin; row < prepared_.row_end; ++row) {
+    weighMissing(static_cast<std::size_t>(row) * stride_ + static_cast<std::size_t>(prepared_.col_begin),
+                 static_cast<std::size_t>(prepared_.cols()));
+  }
 }
 
 void MeasuredImage::setOccluders(const std::vector<float>& depth_m) {
@@ -126,6 +135,7 @@ void MeasuredImage::weighMissing(std::size_t begin, std::size_t count) {
   constexpr float kHardlyAny = 1e-4f;  // inverse of a standard deviation
   for (std::size_t i = begin; i < begin + count; ++i) {
     if (depth_[i] != kMissingReadingM) continue;
+    if (missing_ratio_ >= 1.0f) depth_[i] = 0.0f;
     inverse_stddev_[i] = kHardlyAny;
     visible_peak_[i] = 0.0f;
     tail_[i] = missing_ratio_;

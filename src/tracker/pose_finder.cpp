@@ -173,7 +173,7 @@ FoundPose PoseFinder::settle(const FoundPose& found, const Pose& T_camera_centre
 }
 
 FoundPose PoseFinder::judge(const Pose& T_camera_centre) {
-  const PoseAssessment assessment = fine_.assess(T_camera_centre, 0);
+  const PoseAssessment assessment = fine_.assessWithEdges(T_camera_centre, 0);
   return {T_camera_centre, assessment, findQuality(assessment), findEvidence(assessment)};
 }
 

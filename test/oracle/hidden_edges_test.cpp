@@ -26,7 +26,7 @@ class HiddenEdges : public testing::Test {
     DepthLikelihood likelihood(makePlate(kHalfWidthM), Eigen::Vector3d::Zero(), PixelModelConfig(),
                                OcclusionChainConfig(), 1, 1);
     likelihood.setImage(viewOf(depth_m, camera_), makeSamplingGrid(camera_, 1), 0.0);
-    return likelihood.assess(pose_, 0);
+    return likelihood.assessWithEdges(pose_, 0);
   }
 
   /// An image whose columns are `left` of the middle column and beyond it `right`.

@@ -68,6 +68,8 @@ class DepthLikelihood : public PoseLikelihood {
 
   /// @param extra_stddev_m widens the surface noise. Thread-safe for different `thread` where the image is prepared.
   PoseAssessment assess(const Pose& T_camera_centre, int thread, double extra_stddev_m = 0.0);
+  /// With the edges of what hides the object, which take as long again.
+  PoseAssessment assessWithEdges(const Pose& T_camera_centre, int thread);
 
   /// sum_l w_l p_l / sum_l w_l over the particles that cover a pixel; NaN where they weigh under 0.5. Whole grid,
   /// row-major.

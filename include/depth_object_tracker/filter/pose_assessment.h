@@ -20,7 +20,8 @@ struct PoseAssessment {
   int surrounding_pixels = 0;   ///< measured pixels just outside of the outline
   int continued_pixels = 0;     ///< ... of which with a reading that carries on the surface beside them
   int beyond_pixels = 0;        ///< ... of which with a reading clearly behind: the object ends there
-  int hidden_edges = 0;         ///< neighbouring pixels, the object seen in one and hidden in the other
+  // Only after assessHiddenEdges():
+  int hidden_edges = 0;   ///< neighbouring pixels, the object seen in one and hidden in the other
   int merging_edges = 0;  ///< ... of which without a step between their readings: what hides carries on what is seen
 
   /// Of the object, in [0, 1]: where most of it has no reading little is seen of it, however well the rest fits.
@@ -32,5 +33,8 @@ struct PoseAssessment {
 /// @param tile_beliefs as in tileLogLikelihood(). @param extra_stddev_m [m] >= 0 widens the surface noise.
 PoseAssessment assessTile(const DepthTile& tile, const MeasuredImage& image, const TileLikelihoodInput& input,
                           const float* const* tile_beliefs, float extra_stddev_m);
+
+/// Counts where what is seen of the object meets what hides it. @param tile and @param image as above.
+void assessHiddenEdges(const DepthTile& tile, const MeasuredImage& image, PoseAssessment& assessment);
 
 }  // namespace depth_object_tracker

@@ -114,7 +114,7 @@ class MeasuredImage {
   const PixelModel& model() const { return model_; }
 
   /// By which pixels without a reading are weighed, see PixelModelConfig::no_reading_ratio; 1 = they say nothing. Until
-  /// the next image. Forgets what is prepared.
+  /// the next image.
   void setMissingRatio(float ratio);
   float missingRatio() const { return missing_ratio_; }
 
