@@ -58,6 +58,7 @@ add_library(depth_object_tracker_core SHARED
   src/tracker/frame_budget.cpp
   src/tracker/frame_clock.cpp
   src/tracker/free_turn.cpp
+  src/tracker/grasp_memory.cpp
   src/tracker/held_view.cpp
   src/tracker/illusions.cpp
   src/tracker/image_draws.cpp

@@ -58,6 +58,7 @@ void MeasuredImage::setMissingRatio(float ratio) {
 
 void MeasuredImage::setOccluders(const std::vector<float>& depth_m) {
   const auto rows = static_cast<std::size_t>(grid_.camera.height), cols = static_cast<std::size_t>(grid_.camera.width);
+  prepared_ = CellBox();
   has_occluders_ = depth_m.size() == rows * cols && model_.known_occluder_p_occluded > 0.0f;
   if (!has_occluders_) return;
   occluder_limit_.assign(depth_.size(), kNoOccluder);
@@ -72,6 +73,7 @@ void MeasuredImage::setOccluders(const std::vector<float>& depth_m) {
 
 void MeasuredImage::setTakenSurfaces(const std::vector<float>& depth_m) {
   const auto rows = static_cast<std::size_t>(grid_.camera.height), cols = static_cast<std::size_t>(grid_.camera.width);
+  prepared_ = CellBox();
   has_taken_ = depth_m.size() == rows * cols;
   if (!has_taken_) return;
   taken_depth_.assign(depth_.size(), 0.0f);

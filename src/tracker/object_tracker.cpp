@@ -147,6 +147,7 @@ void ObjectTracker::moveCamera(const Pose& T_now_before) {
   self.last_mean.mean = T_now_before * self.last_mean.mean;
   self.last_velocity = rotated(self.last_velocity, R_now_before);
   self.seen_velocity = rotated(self.seen_velocity, R_now_before);
+  if (self.grasp_memory.pose()) self.grasp_memory.moved(T_now_before * *self.grasp_memory.pose());
   if (self.before_find) {
     self.before_find->mean.mean = T_now_before * self.before_find->mean.mean;
     self.before_find->mean.covariance = rotated(self.before_find->mean.covariance, R_now_before);

@@ -4,6 +4,7 @@
 #include "tracker/pose_evidence.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace depth_object_tracker {
@@ -144,7 +145,14 @@ void Reacquisition::findDistractors() {
 }
 
 double Reacquisition::logOdds(const FoundPose& found) const {
-  return findLogOdds(found.assessment, usualScore());
+  return findLogOdds(found.assessment, usualScore()) - outOfHand(found.T_camera_centre);
+}
+
+double Reacquisition::outOfHand(const Pose& T_camera_centre) const {
+  constexpr double kStddevM = 0.02, kMostNat = 6.0;  // it may have been dropped without the robot's noticing
+  if (!in_hand_) return 0.0;
+  const double stddevs = (T_camera_centre.translation() - in_hand_->translation()).norm() / kStddevM;
+  return std::min(kMostNat, 0.5 * stddevs * stddevs);
 }
 
 double Reacquisition::learn(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre) {
@@ -169,16 +177,23 @@ double Reacquisition::judge(const DepthImageView& depth, const PinholeCamera& ca
 std::optional<Pose> Reacquisition::findGiven(const DepthImageView& depth, const PinholeCamera& camera,
                                              const Pose& T_camera_centre, const Pose& given,
                                              const Vector6d& variances) {
-  constexpr double kSurerNat = 1.0, kLeastNat = -2.5;
+  constexpr double kSurerNat = 1.0, kLeastNat = -2.5, kLeastInHandNat = -7.0;
+  constexpr double kSurerInHandNat = 3.0;  // where little is seen, that little may be the hand
+  constexpr std::array<double, 3> kShares = {0.1, 0.3, 1.0};
   finder_->setImage(depth, camera, std::max(0.2, given.translation().z()));
   const auto log_posterior = [&](const FoundPose& one) {
     return logOdds(one) - 0.5 * difference(one.T_camera_centre, given).cwiseAbs2().cwiseQuotient(variances).sum();
   };
   const FoundPose now = finder_->judge(T_camera_centre);
-  const double enough = std::max(kLeastNat, logOdds(now) + kSurerNat);
+  const double enough = std::max(in_hand_ ? kLeastInHandNat : kLeastNat, logOdds(now) + kSurerNat);
   std::optional<Pose> best;
-  double most = log_posterior(now) + kSurerNat;
-  for (const FoundPose& one : finder_->searchAround({given}, variances, kAround)) {
+  double most = log_posterior(now) + (in_hand_ ? kSurerInHandNat : kSurerNat);
+  found_ = finder_->searchAround({given}, variances, kAround);
+  // Something beside it may draw all others away.
+  const FoundPose there = finder_->judge(given);
+  found_.push_back(there);
+  for (const double share : kShares) found_.push_back(finder_->settle(there, given, share * share * variances));
+  for (const FoundPose& one : found_) {
     if (log_posterior(one) <= most || logOdds(one) <= enough) continue;
     most = log_posterior(one);
     best = one.T_camera_centre;
@@ -278,6 +293,7 @@ std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const
     return std::nullopt;
   }
   if (found_.front().assessment.log_likelihood < now.assessment.log_likelihood) return std::nullopt;
+  if (in_hand_ && logOdds(found_.front()) < logOdds(now)) return std::nullopt;
   const Vector6d moved = difference(found_.front().T_camera_centre, T_camera_centre);
   if (moved.head<3>().norm() < kElsewhereM && moved.tail<3>().norm() < kElsewhereRad) return std::nullopt;
   return finder_->settle(found_.front(), T_camera_centre, others.variances).T_camera_centre;

@@ -10,6 +10,7 @@
 #include "depth_object_tracker/tracker/doubt.h"
 #include "depth_object_tracker/tracker/frame_clock.h"
 #include "depth_object_tracker/tracker/free_turn.h"
+#include "depth_object_tracker/tracker/grasp_memory.h"
 #include "depth_object_tracker/tracker/held_view.h"
 #include "depth_object_tracker/tracker/look_alikes.h"
 #include "depth_object_tracker/tracker/object_tracker.h"
@@ -59,6 +60,7 @@ class ObjectTracker::Implementation {
   PoseSmoother smoother;
   PoseSearch search;
   HeldView held_view;
+  GraspMemory grasp_memory;
   struct HiddenStart {
     Pose T_camera_centre;
     Vector6d variances;
@@ -98,6 +100,7 @@ class ObjectTracker::Implementation {
   double initialising_s = 0.0;             // since an initial pose that does not fit yet
   std::optional<ProcessStep> step_in_use;  // of the last image that was looked at
   bool follows_hand = false;
+  bool is_back_in_hand = false;    // the filter starts where the hand should have the object, and looks nowhere else
   bool is_hidden_in_hand = false;  // most of it, in this image: the robot's motion says more than what little is seen
   Vector6d hand_velocity = Vector6d::Zero();  // of the centre as the robot has it; zero when it is not followed
   FrameClock clock;
@@ -123,6 +126,19 @@ class ObjectTracker::Implementation {
   /// it? nullopt when it is not, and nothing has changed.
   std::optional<FilterEstimate> lookPastTheHand(const DepthImageView& depth, const SamplingGrid& grid, double dt_s,
                                                 const std::optional<ControlInput>& control);
+  /// The remembered grasp goes where the hand carries it.
+  void carryGrasp(double dt_s, const std::optional<ControlInput>& control);
+  /// Starts the filter anew where the hand should have the object. @return false when the estimate is no worse.
+  bool returnToGrasp(const DepthImageView& depth, double dt_s, const std::optional<ControlInput>& control,
+                     FilterEstimate& estimate, const PoseAssessment& assessment);
+  /// Starts the filter at a pose that is better than its own; where it leaves that for a worse one, it stays in the
+  /// hand.
+  FilterEstimate lookInHand(const DepthImageView& depth, double dt_s, const std::optional<ControlInput>& control,
+                            const Pose& better, const Pose& grasp);
+  /// A hand beside the object may explain more of the image than the object itself.
+  bool leavesForWorse(const DepthImageView& depth, const Pose& T_camera_centre, const Pose& better);
+  double scoreInHand() const;
+  void rememberGrasp(const Pose& T_camera_centre, double dt_s);
   double projectedPixels(const PinholeCamera& camera) const;
   double diffusionScale() const;
   /// The covariance as the image bears it out.
@@ -133,6 +149,13 @@ class ObjectTracker::Implementation {
   FilterEstimate look(double dt_s, const std::optional<ControlInput>& control);
   /// One frame without a measurement.
   FilterEstimate hold(double dt_s, const std::optional<ControlInput>& control);
+  /// The first image after a pose was given: where that does not fit, it looks for one that does.
+  struct GivenPose {
+    Pose T_camera_centre;
+    Vector6d variances;
+  };
+  void startFromGiven(const DepthImageView& depth, double dt_s, const std::optional<ControlInput>& control,
+                      const GivenPose& given, FilterEstimate& estimate, PoseAssessment& assessment);
   PoseAssessment assess(const FilterEstimate& estimate);
   static bool fits(const PoseAssessment& assessment);
   bool seesNothing(const PoseAssessment& assessment) const;

@@ -14,15 +14,6 @@ namespace {
 // Spread of an angle that nothing can be known of.
 constexpr double kFreeAngleVariance = M_PI * M_PI / 3.0;
 
-/// How far from the truth a pose given by hand may be.
-Vector6d givenPoseVariances(const Vector6d& initial_variances) {
-  constexpr double kPositionM = 0.03, kRotationRad = 0.3;
-  Vector6d variances = initial_variances;
-  variances.head<3>() = variances.head<3>().cwiseMax(kPositionM * kPositionM);
-  variances.tail<3>() = variances.tail<3>().cwiseMax(kRotationRad * kRotationRad);
-  return variances;
-}
-
 constexpr int kHypotheses = 100;
 constexpr double kPoorFitReachS = 0.3;  // as far as after this long unseen
 constexpr double kFitsWithinS = 0.3;    // an initial pose, or it is wrong
@@ -50,6 +41,7 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
     likelihood.setTakenSurfaces(known_occluders->renderSeen(grid.camera));
   }
   if (!is_anywhere) likelihood.weighMissingReadings(last_mean.mean);
+  carryGrasp(time.dt_s, control);
   setAsideWhatIsNotHeld(depth, grid, time.dt_s, control);
 
   const std::optional<FilterEstimate> past_hand = lookPastTheHand(depth, grid, time.dt_s, control);
@@ -60,24 +52,7 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
   is_given = false;
   FilterEstimate estimate = past_hand ? *past_hand : is_blind ? hold(time.dt_s, control) : look(time.dt_s, control);
   PoseAssessment assessment = assess(estimate);
-  if (was_given && !fits(assessment)) {
-    // Perhaps it is farther from the truth than its variances say.
-    filter.initialise(given);
-    likelihood.resetOcclusion();
-    initial_variances = given_variances;
-    around_given = reacquisition.lookAround(depth, camera, given, givenPoseVariances(given_variances));
-    estimate = look(time.dt_s, control);
-    assessment = assess(estimate);
-    if (!fits(assessment)) {
-      const std::optional<Pose> nearby =
-          reacquisition.findGiven(depth, camera, estimate.pose.mean, given, given_variances);
-      if (nearby) {
-        startAt(*nearby);
-        estimate = look(time.dt_s, control);
-        assessment = assess(estimate);
-      }
-    }
-  }
+  if (was_given && !is_blind) startFromGiven(depth, time.dt_s, control, {given, given_variances}, estimate, assessment);
   if (!is_blind && (seesNothing(assessment) || (!past_hand && leaps(depth, estimate)))) {
     // The update is not to be trusted: what was seen is not the object.
     filter.undo();
@@ -89,6 +64,7 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
     estimate = is_blind ? hold(time.dt_s, control) : look(time.dt_s, control);
     assessment = assess(estimate);
   }
+  if (returnToGrasp(depth, time.dt_s, control, estimate, assessment)) assessment = assess(estimate);
   turnToLookAlike(estimate, assessment, time.dt_s);
   turnToMiddle(estimate, assessment, time.dt_s);
   calibrate(estimate, time.dt_s);
@@ -100,6 +76,7 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
   writeStatus(assessment);
   estimateSlip(estimate, time.dt_s);
   rememberFit(estimate, time.dt_s);
+  rememberGrasp(estimate.pose.mean, time.dt_s);
   learnFit(depth, time.dt_s);
   result.time.total_s = stopwatch.lap();
   return result;
@@ -107,6 +84,7 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
 
 FilterEstimate ObjectTracker::Implementation::look(double dt_s, const std::optional<ControlInput>& control) {
   const ProcessStep step = makeStep(dt_s, control);
+  is_back_in_hand = false;
   step_in_use = step;
   const double exponent = likelihoodExponent(config.filter, likelihood.image().grid().factor);
   return filter.update(likelihood, step, exponent, hypotheses);
@@ -193,7 +171,9 @@ ProcessStep ObjectTracker::Implementation::makeStep(double dt_s, const std::opti
   hypotheses.if_poor.clear();
   if (initial_variances) {
     ProcessStep step(config.process, *initial_variances);
-    if (mayReacquire()) search.around(filter.poses().front(), *initial_variances, kHypotheses, hypotheses.always);
+    if (mayReacquire() && !is_back_in_hand) {
+      search.around(filter.poses().front(), *initial_variances, kHypotheses, hypotheses.always);
+    }
     hypotheses.always.insert(hypotheses.always.end(), around_given.begin(), around_given.end());
     around_given.clear();
     initial_variances.reset();

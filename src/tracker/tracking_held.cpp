@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tracker/tracker_implementation.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace depth_object_tracker {
@@ -16,6 +17,15 @@ constexpr double kLeastVisibleShare = 0.1, kLeastScore = 0.85, kMostThrough = 0.
 constexpr double kMostContinued = 0.08, kLeastBeyond = 0.1;
 constexpr int kLeastVisibleCells = 40;
 constexpr double kMostReachM = 0.015;  // what is nearer than that is the hand's
+
+/// How far an object may have slipped, and the kinematics be wrong, since it was last surely seen.
+Vector6d inHandVariances() {
+  constexpr double kSlippedM = 0.01, kSlippedRad = 0.15;
+  Vector6d variances;
+  variances.head<3>().setConstant(kSlippedM * kSlippedM);
+  variances.tail<3>().setConstant(kSlippedRad * kSlippedRad);
+  return variances;
+}
 
 }  // namespace
 
@@ -114,6 +124,71 @@ std::optional<FilterEstimate> ObjectTracker::Implementation::lookPastTheHand(
   filter.undo();
   if (hidden_start) likelihood.resetOcclusion();
   return std::nullopt;
+}
+
+void ObjectTracker::Implementation::carryGrasp(double dt_s, const std::optional<ControlInput>& control) {
+  const bool is_held = control && control->isFollowed();
+  if (!mayReacquire() || is_anywhere || !is_held) {
+    grasp_memory.forget();
+  } else if (is_given && initial_variances) {
+    grasp_memory.given(filter.poses().front());
+  } else if (grasp_memory.pose()) {
+    const ProcessStep step(config.process, dt_s, control, centre_object, 1.0);
+    grasp_memory.moved(perturb(*grasp_memory.pose(), step.controlDisplacement(*grasp_memory.pose())));
+  }
+  reacquisition.expectInHand(grasp_memory.pose());
+}
+
+/// What is usual may have been learnt of the hand.
+double ObjectTracker::Implementation::scoreInHand() const {
+  constexpr double kOfAFairMesh = 0.92;
+  return std::max(kOfAFairMesh, reacquisition.usualScore());
+}
+
+void ObjectTracker::Implementation::rememberGrasp(const Pose& T_camera_centre, double dt_s) {
+  if (!follows_hand) return;
+  const bool is_told = status.state() == TrackerState::kTracking && is_seen && !is_hidden_in_hand;
+  grasp_memory.seen(T_camera_centre, is_told ? status.score() / scoreInHand() : 0.0, dt_s);
+}
+
+bool ObjectTracker::Implementation::returnToGrasp(const DepthImageView& depth, double dt_s,
+                                                  const std::optional<ControlInput>& control, FilterEstimate& estimate,
+                                                  const PoseAssessment& assessment) {
+  if (!follows_hand || hidden_start || is_hidden_in_hand) return false;
+  const double score = is_blind ? 0.0 : assessment.achieved / std::max(1e-9, assessment.expected);
+  if (!grasp_memory.isDue(estimate.pose.mean, score / scoreInHand())) return false;
+  const Pose grasp = *grasp_memory.pose();
+  const std::optional<Pose> better =
+      reacquisition.findGiven(depth, camera_in_use, estimate.pose.mean, grasp, inHandVariances());
+  grasp_memory.compared();
+  if (!better) return false;
+  estimate = lookInHand(depth, dt_s, control, *better, grasp);
+  return true;
+}
+
+FilterEstimate ObjectTracker::Implementation::lookInHand(const DepthImageView& depth, double dt_s,
+                                                         const std::optional<ControlInput>& control, const Pose& better,
+                                                         const Pose& grasp) {
+  startAt(better);
+  turn_prior.stddev_rad = std::sqrt(inHandVariances().tail<3>().maxCoeff());
+  free_turn.restart(turn_prior.stddev_rad);
+  is_back_in_hand = true;
+  is_blind = false;
+  const FilterEstimate estimate = look(dt_s, control);
+  if (!leavesForWorse(depth, estimate.pose.mean, better)) return estimate;
+  // What hides it draws the filter away: it stays where the hand has it until more is seen.
+  startAt(grasp);
+  initial_variances.reset();
+  is_blind = true;
+  return hold(dt_s, control);
+}
+
+bool ObjectTracker::Implementation::leavesForWorse(const DepthImageView& depth, const Pose& T_camera_centre,
+                                                   const Pose& better) {
+  constexpr double kFarM = 0.005, kFarRad = 0.1;
+  const Vector6d moved = difference(T_camera_centre, better);
+  return (moved.head<3>().norm() > kFarM || moved.tail<3>().norm() > kFarRad) &&
+         reacquisition.judge(depth, camera_in_use, T_camera_centre) < reacquisition.judge(depth, camera_in_use, better);
 }
 
 void ObjectTracker::Implementation::followHand(const ProcessStep& step, bool follows, double dt_s) {

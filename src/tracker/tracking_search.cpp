@@ -22,6 +22,15 @@ Vector6d foundVariances() {
   return variances;
 }
 
+/// How far from the truth a pose given by hand may be.
+Vector6d givenPoseVariances(const Vector6d& initial_variances) {
+  constexpr double kPositionM = 0.03, kRotationRad = 0.3;
+  Vector6d variances = initial_variances;
+  variances.head<3>() = variances.head<3>().cwiseMax(kPositionM * kPositionM);
+  variances.tail<3>() = variances.tail<3>().cwiseMax(kRotationRad * kRotationRad);
+  return variances;
+}
+
 /// A pose that was only just found may be turned any way.
 Vector6d anyTurnVariances() {
   Vector6d variances;
@@ -42,6 +51,37 @@ Vector6d movedOn(const Vector6d& velocity, double duration_s) {
 }
 
 }  // namespace
+
+/// The pose may be farther from the truth than its variances say, or in a hand that was taken for the object.
+void ObjectTracker::Implementation::startFromGiven(const DepthImageView& depth, double dt_s,
+                                                   const std::optional<ControlInput>& control, const GivenPose& given,
+                                                   FilterEstimate& estimate, PoseAssessment& assessment) {
+  constexpr double kHardlyEverSquared = 22.5;  // chi squared, 6 degrees of freedom, 99.9 %
+  const Vector6d moved = difference(estimate.pose.mean, given.T_camera_centre);
+  const bool is_held = grasp_memory.pose().has_value();
+  const bool is_out_of_hand = is_held && moved.cwiseAbs2().cwiseQuotient(given.variances).sum() > kHardlyEverSquared;
+  if (fits(assessment) && !is_out_of_hand) return;
+  if (!is_out_of_hand) {
+    filter.initialise(given.T_camera_centre);
+    likelihood.resetOcclusion();
+    initial_variances = given.variances;
+    around_given =
+        reacquisition.lookAround(depth, camera_in_use, given.T_camera_centre, givenPoseVariances(given.variances));
+    estimate = look(dt_s, control);
+    assessment = assess(estimate);
+    if (fits(assessment)) return;
+  }
+  const std::optional<Pose> better =
+      reacquisition.findGiven(depth, camera_in_use, estimate.pose.mean, given.T_camera_centre, given.variances);
+  if (!better) return;
+  if (is_held) {
+    estimate = lookInHand(depth, dt_s, control, *better, given.T_camera_centre);
+  } else {
+    startAt(*better);
+    estimate = look(dt_s, control);
+  }
+  assessment = assess(estimate);
+}
 
 bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, double dt_s) {
   if (hidden_start) return false;

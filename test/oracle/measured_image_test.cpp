@@ -3,6 +3,7 @@
 #include "depth_object_tracker/model/measured_image.h"
 
 #include "depth_object_tracker/model/pixel_likelihood.h"
+#include "millimetre_view.h"
 
 #include <gtest/gtest.h>
 
@@ -246,6 +247,46 @@ TEST(MeasuredImage, ReadsOnlyTheBoxesAskedForAndKeepsThem) {
   image.prepare(first);
   EXPECT_FLOAT_EQ(image.pixel(11, 18).depth, 4.0f) << "a new frame is read anew";
   EXPECT_EQ(image.source(), view.data);
+}
+
+class AfterPreparing : public testing::Test {
+ protected:
+  AfterPreparing() : image_((PixelModelConfig())) {
+    camera_.width = 16;
+    camera_.height = 8;
+    camera_.fx = camera_.fy = 10.0;
+    counts_[kMissing] = 0;
+    image_.setImage(viewOf(counts_, camera_), makeSamplingGrid(camera_, 1));
+    image_.prepare(image_.imageBox());
+  }
+
+  static constexpr std::size_t kMissing = 5;
+  PinholeCamera camera_;
+  std::vector<std::uint16_t> counts_ = std::vector<std::uint16_t>(16 * 8, 1000);
+  MeasuredImage image_;
+};
+
+TEST_F(AfterPreparing, WhatIsTakenIsStillSetAside) {
+  ASSERT_GT(image_.pixel(3, 3).visible_peak, 0.0f);
+  image_.setTakenSurfaces(std::vector<float>(16 * 8, 1.0f));
+  image_.prepare(image_.imageBox());
+  EXPECT_EQ(image_.pixel(3, 3).visible_peak, 0.0f);
+}
+
+TEST_F(AfterPreparing, KnownOccludersStillCount) {
+  ASSERT_EQ(image_.pixel(3, 3).occluder_limit, kNoOccluder);
+  image_.setOccluders(std::vector<float>(16 * 8, 1.0f));
+  image_.prepare(image_.imageBox());
+  EXPECT_LT(image_.pixel(3, 3).occluder_limit, 1.1f);
+}
+
+TEST_F(AfterPreparing, MissingReadingsAreWeighedAnew) {
+  image_.setMissingRatio(0.6f);
+  EXPECT_EQ(image_.pixel(0, kMissing).tail, 0.6f);
+  EXPECT_EQ(image_.pixel(0, kMissing).depth, kMissingReadingM);
+  EXPECT_EQ(image_.pixel(0, kMissing + 1).depth, 1.0f);
+  image_.setMissingRatio(1.0f);
+  EXPECT_EQ(image_.pixel(0, kMissing).depth, 0.0f) << "says nothing";
 }
 
 TEST(MeasuredImage, SubSampledCellsAreThePixelsOfTheGrid) {

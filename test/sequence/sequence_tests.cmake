@@ -10,6 +10,7 @@ add_tracker_test(tracker_sequence_tests
     sequence/many_objects_test.cpp
     sequence/motion_test.cpp
     sequence/own_arm_test.cpp
+    sequence/palm_test.cpp
     sequence/reacquisition_test.cpp
     sequence/score_test.cpp
     sequence/scripted_scene.cpp

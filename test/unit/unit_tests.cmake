@@ -32,6 +32,7 @@ add_tracker_test(model_unit_tests SOURCES
   unit/angle_belief_test.cpp
   unit/distractors_test.cpp
   unit/doubt_test.cpp
+  unit/grasp_memory_test.cpp
   unit/illusions_test.cpp
   unit/model_occlusion_chain_test.cpp
   unit/model_process_test.cpp

@@ -83,13 +83,13 @@ class MeasuredImage {
   /// A new frame; the view must stay valid until the next call.
   void setImage(const DepthImageView& view, const SamplingGrid& grid);
 
-  /// Known occluders for this frame, after setImage() and before prepare(). Where the reading lies behind one, and
+  /// Known occluders for this frame, after setImage(). Forgets what is prepared. Where the reading lies behind one, and
   /// config.known_occluder_margin_m more, the occluder is not where it was said to be and does not count.
   /// @param depth_m of the nearest one for each cell of the grid, row-major; 0 = none. Another size is ignored.
   void setOccluders(const std::vector<float>& depth_m);
 
-  /// Surfaces of other things that are seen in this frame, after setImage() and before prepare(): a reading on one of
-  /// them is not the object's, but an occluder's or, before it, free space. @param depth_m as above.
+  /// Surfaces of other things that are seen in this frame, after setImage(). Forgets what is prepared. A reading on one
+  /// of them is not the object's, but an occluder's or, before it, free space. @param depth_m as above.
   void setTakenSurfaces(const std::vector<float>& depth_m);
   /// Readings that lie on one of the planes count for "no object" as much as for an object there. Of the pixels that
   /// are prepared.

@@ -68,6 +68,8 @@ class Reacquisition {
   }
   /// What was followed until now may not have been the object.
   void forgetScene() { distractors_.forget(); }
+  /// Where a robot's hand should have the object in this image; nullopt = it is not held.
+  void expectInHand(const std::optional<Pose>& T_camera_centre) { in_hand_ = T_camera_centre; }
   /// Images of this size are to be expected.
   void expectImages(const PinholeCamera& camera) { distractors_.expectImages(camera); }
   /// The camera's own motion since the last image.
@@ -95,6 +97,8 @@ class Reacquisition {
   std::optional<Pose> searchAnywhere(const SearchRegion& region);
 
   double logOdds(const FoundPose& found) const;
+  /// Evidence [nat] against a pose away from the hand that holds the object.
+  double outOfHand(const Pose& T_camera_centre) const;
   void findDistractors();
 
   static constexpr double kScoreOfAFairMesh = 0.92;
@@ -102,6 +106,7 @@ class Reacquisition {
   Distractors distractors_;
   std::optional<double> usual_score_, usual_log_odds_;
   double log_odds_now_ = 0.0;
+  std::optional<Pose> in_hand_;
   std::vector<Survivor> survivors_;
   std::vector<FoundPose> found_;
   Pose winner_ = Pose::Identity();  // of the last search with nothing known
