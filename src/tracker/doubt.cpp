@@ -50,7 +50,8 @@ Doubt::Look Doubt::look() const {
   if ((is_mediocre_ || (is_seen_ && isOdd())) && is_due) return Look::kEverywhere;
   if (is_seen_ && shaken_s_ < kShakenForS && since_look_s_ > kLooksWhileShakenS) return Look::kEverywhere;
   const bool is_new = since_fall_s_ < kNewForS || (poor_s_ < kLookAroundForS && since_around_s_ > kOldEveryS);
-  return is_poor_ && (is_due || is_new) ? Look::kAround : Look::kNowhere;
+  const bool is_old_and_due = is_due && poor_s_ >= kLookAroundForS;
+  return is_poor_ && (is_old_and_due || is_new) ? Look::kAround : Look::kNowhere;
 }
 
 void Doubt::found() {
