@@ -262,6 +262,7 @@ std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const
   constexpr double kExplainsMore = 1.1, kLeastNat = -3.0;
   if (!found_.empty() && others.everywhere) {
     constexpr double kMuchLikelier = 2.0, kSureByItself = 2.0, kLikelier = 1.0, kFarLikelier = 6.0;
+    constexpr double kBeyondDoubt = 4.0;
     constexpr double kOddNat = -2.5, kLikelyByItself = 0.5, kLikelierThanOdd = 4.0;
     const auto surer = [&](const FoundPose& one) {
       return logOdds(one) - distractors_.against(one.T_camera_centre, T_camera_centre, others.memory_s);
@@ -276,7 +277,9 @@ std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const
     const bool explains_more =
         more > (is_here ? 1.0 : kExplainsMore) || odds > odds_now + (is_odd ? kLikelierThanOdd : kFarLikelier);
     const double by_itself = is_odd ? kLikelyByItself : kSureByItself;
-    if (explains_more && odds > std::max(by_itself, odds_now + (is_here ? kLikelier : kMuchLikelier))) {
+    if (explains_more && odds > std::max(by_itself, odds_now + (is_here           ? kLikelier
+                                                                : others.is_early ? kBeyondDoubt
+                                                                                  : kMuchLikelier))) {
       return best->T_camera_centre;
     }
     return std::nullopt;

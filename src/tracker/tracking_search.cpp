@@ -13,6 +13,7 @@ constexpr double kUsualTurnRad = 0.25;
 constexpr double kTrustedForS = 2.0, kSureNat = 2.0, kNotOddNat = -3.0;
 constexpr double kDoubtfulAfterFindS = 0.7;
 constexpr double kDoubtedAtFirstS = 0.12, kBetweenChecksS = 0.05;  // in every image, and then in some
+constexpr double kEarlyS = 0.6;                                    // after a find
 constexpr double kDoubtfulReachS = 1.5;                            // as far as after this long unseen, at most
 
 Vector6d foundVariances() {
@@ -135,6 +136,7 @@ bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth
   others.occluders = known_occluders;
   others.memory_s = since_remembered_s;
   others.is_unproven = doubt.isUnproven();
+  others.is_early = reacquired_s < kEarlyS;
   others.everywhere = look == Doubt::Look::kEverywhere;
   others.by_likelihood = just_found || others.everywhere;
   others.variances = just_found ? anyTurnVariances() : searchVariances(std::min(doubt.poorSince(), kDoubtfulReachS));

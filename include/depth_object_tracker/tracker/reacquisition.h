@@ -20,6 +20,7 @@ struct OtherPoses {
   /// Of where the object may be [m^2], about an estimate that was surely followed; none = anywhere.
   std::optional<Eigen::Vector3d> reach;
   bool is_unproven = false;             ///< the estimate was found, and never surely seen since
+  bool is_early = false;                ///< the estimate was found a moment ago, when it was the surest there was
   double memory_s = 0.0;                ///< since remember()
   KnownOccluders* occluders = nullptr;  ///< the object is not where one of them is seen; null = none
 };
