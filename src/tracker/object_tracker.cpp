@@ -92,7 +92,7 @@ void ObjectTracker::initialise(const Pose& T_camera_object, const Matrix6d& cova
   self.before_find.reset();
   self.initialising_s = 0.0;
   self.is_blind = self.is_anywhere = self.is_on_table = false;
-  self.reacquired_s = self.moved_s = self.since_sure_s = Implementation::kLongAgoS;
+  self.reacquired_s = self.moved_s = self.since_sure_s = self.since_fitted_s = Implementation::kLongAgoS;
   self.calibration.restart();
   self.look_alikes.restart();
   self.free_turn.restart(std::sqrt(self.initial_variances->tail<3>().maxCoeff()));
@@ -145,6 +145,7 @@ void ObjectTracker::moveCamera(const Pose& T_now_before) {
   self.hand_velocity = rotated(self.hand_velocity, R_now_before);
   if (self.hidden_start) self.hidden_start->T_camera_centre = T_now_before * self.hidden_start->T_camera_centre;
   self.last_mean.mean = T_now_before * self.last_mean.mean;
+  self.fitted_pose = T_now_before * self.fitted_pose;
   self.last_velocity = rotated(self.last_velocity, R_now_before);
   self.seen_velocity = rotated(self.seen_velocity, R_now_before);
   if (self.grasp_memory.pose()) self.grasp_memory.moved(T_now_before * *self.grasp_memory.pose());

@@ -78,8 +78,10 @@ class ObjectTracker::Implementation {
   Vector6d last_velocity = Vector6d::Zero();  // as particles' velocities are
   double seen_distance_m = 0.0;               // of the centre, when the object was last surely seen
   Vector6d seen_velocity = Vector6d::Zero();  // of the centre, when the object was last seen well
-  bool is_anywhere = false;                   // nothing is known of the pose yet
-  bool is_on_table = false;                   // but that the object rests on a plane
+  Pose fitted_pose = Pose::Identity();        // of the centre, when it was last seen where it was expected, and fitted
+  double since_fitted_s = kLongAgoS;
+  bool is_anywhere = false;    // nothing is known of the pose yet
+  bool is_on_table = false;    // but that the object rests on a plane
   bool is_blind = false;       // nothing of the object was seen in the last image, or not where it was thought to be
   double moved_s = kLongAgoS;  // since the filter was started anew, at a pose that was searched
   double reacquired_s = kLongAgoS;   // since the object was found again
@@ -167,8 +169,10 @@ class ObjectTracker::Implementation {
   bool reacquire(const DepthImageView& depth, double dt_s);
   /// The estimate may be at a neighbouring mode: the image does not fit well, or the object was only just found.
   Doubt::Look whereToLook() const;
-  bool moveToBetterPose(const DepthImageView& depth, const Pose& T_camera_centre);
+  bool moveToBetterPose(const DepthImageView& depth, const Pose& T_camera_centre, double dt_s);
   void startAt(const Pose& T_camera_centre);
+  /// What was lost for a few images and found again moves on as it did meanwhile. After startAt().
+  void keepMoving(const Pose& T_camera_centre, double dt_s);
   /// What was found a moment ago is not the object, by the images since. @return true when it is taken back.
   bool takeBackFind();
   void forgetFind();

@@ -60,7 +60,7 @@ TrackerResult ObjectTracker::Implementation::update(const DepthImageView& depth,
     is_blind = true;
     estimate = hold(time.dt_s, control);
     assessment = assess(estimate);
-  } else if (!is_blind && moveToBetterPose(depth, estimate.pose.mean)) {
+  } else if (!is_blind && moveToBetterPose(depth, estimate.pose.mean, time.dt_s)) {
     estimate = is_blind ? hold(time.dt_s, control) : look(time.dt_s, control);
     assessment = assess(estimate);
   }
@@ -207,6 +207,11 @@ void ObjectTracker::Implementation::rememberFit(const FilterEstimate& estimate, 
   if (seen && moved_s > kSurelyAfterS) seen_distance_m = estimate.pose.mean.translation().z();
   if (seen) seen_velocity = estimate.velocity + hand_velocity;
   doubt.update(status.score() / reacquisition.usualScore(), status.visibleFraction(), seen, dt_s);
+  since_fitted_s += dt_s;
+  if (seen && !doubt.isPoor()) {
+    fitted_pose = estimate.pose.mean;
+    since_fitted_s = 0.0;
+  }
   initialising_s = status.state() == TrackerState::kInitializing ? initialising_s + dt_s : 0.0;
   const bool may_be_blind =
       mayReacquire() && (status.state() != TrackerState::kInitializing || initialising_s > kFitsWithinS);

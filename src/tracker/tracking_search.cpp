@@ -108,6 +108,7 @@ bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, doubl
   before_find.reset();
   if (region.is_known) before_find = BeforeFind{last_mean, seen_velocity, unseen_s, since_sure_s, status.state()};
   startAt(*found);
+  keepMoving(*found, dt_s);
   // Found where and how it was expected, it is not compared with what looks alike as if nothing were known.
   constexpr double kExpectedSquared = 6.0;
   if (region.is_known && squaredDistance(*found, region) < kExpectedSquared) {
@@ -127,7 +128,8 @@ Doubt::Look ObjectTracker::Implementation::whereToLook() const {
   return is_due ? Doubt::Look::kAround : Doubt::Look::kNowhere;
 }
 
-bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth, const Pose& T_camera_centre) {
+bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth, const Pose& T_camera_centre,
+                                                     double dt_s) {
   const Doubt::Look look = whereToLook();
   if (look == Doubt::Look::kNowhere) return false;
   since_check_s = 0.0;
@@ -145,7 +147,10 @@ bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth
     others.reach = (searchVariances(since_sure_s) + moved_on.cwiseAbs2()).head<3>();
   }
   const std::optional<Pose> better = reacquisition.findBetter(depth, camera_in_use, T_camera_centre, others);
-  if (better) startAt(*better);
+  if (better) {
+    startAt(*better);
+    keepMoving(*better, dt_s);
+  }
   doubt.looked(look);
   return better.has_value() || takeBackFind();
 }
@@ -238,6 +243,16 @@ void ObjectTracker::Implementation::startAt(const Pose& T_camera_centre) {
   status.restart();
   initial_variances = foundVariances();
   reacquisition.restart();
+}
+
+void ObjectTracker::Implementation::keepMoving(const Pose& T_camera_centre, double dt_s) {
+  constexpr double kLongestS = 0.2, kFastestM_s = 2.5, kFastestRad_s = 7.0;
+  const double duration_s = since_fitted_s + dt_s;
+  if (follows_hand || duration_s <= 0.0 || duration_s > kLongestS) return;
+  const Vector6d velocity = difference(T_camera_centre, fitted_pose) / duration_s;
+  // Faster is elsewhere, or one of its look-alikes.
+  if (velocity.head<3>().norm() > kFastestM_s || velocity.tail<3>().norm() > kFastestRad_s) return;
+  filter.shiftVelocities(velocity);
 }
 
 void ObjectTracker::Implementation::learnFit(const DepthImageView& depth, double dt_s) {
