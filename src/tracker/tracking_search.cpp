@@ -142,6 +142,8 @@ bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth
   others.everywhere = look == Doubt::Look::kEverywhere;
   others.by_likelihood = just_found || others.everywhere;
   others.variances = just_found ? anyTurnVariances() : searchVariances(std::min(doubt.poorSince(), kDoubtfulReachS));
+  // A fast object may have gone on while the estimate was caught by something beside it.
+  if (!just_found) others.variances += movedOn(last_velocity, doubt.poorSince() + dt_s).cwiseAbs2();
   if (since_sure_s < kTrustedForS) {
     const Vector6d moved_on = movedOn(seen_velocity, since_sure_s);
     others.reach = (searchVariances(since_sure_s) + moved_on.cwiseAbs2()).head<3>();
