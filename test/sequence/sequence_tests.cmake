@@ -3,6 +3,7 @@ add_tracker_test(tracker_sequence_tests
   SOURCES
     sequence/covariance_test.cpp
     sequence/determinism_test.cpp
+    sequence/fast_object_test.cpp
     sequence/free_turn_test.cpp
     sequence/input_test.cpp
     sequence/live_parameters_test.cpp
