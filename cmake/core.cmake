@@ -76,6 +76,7 @@ add_library(depth_object_tracker_core SHARED
   src/tracker/point_pairs.cpp
   src/tracker/pose_evidence.cpp
   src/tracker/pose_finder.cpp
+  src/tracker/pose_sampler.cpp
   src/tracker/pose_search.cpp
   src/tracker/reacquisition.cpp
   src/tracker/resolution.cpp

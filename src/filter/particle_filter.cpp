@@ -224,7 +224,12 @@ void ParticleFilter::drawFromProcess(const ProcessStep& step) {
 
 void ParticleFilter::drawInformed(const ProcessStep& step) {
   const InformedProposal proposal(step, modes_);
-  if (proposal.empty()) return drawFromProcess(step);
+  if (proposal.empty()) {
+    drawFromProcess(step);
+    // Few draws from the process explain the image, often one: the others say how far from the truth that may be.
+    expected_ = poseStatistics(poses_, weights_, last_mean_);
+    return;
+  }
   const double prior_share = config_.prior_share;
   MixtureMoments moments;
   for (std::size_t i = 0; i < poses_.size(); ++i) {

@@ -64,7 +64,7 @@ ObjectTracker::Implementation::Implementation(ObjectModel object_model, const Tr
       free_turn(look_alikes.lookAlikes().axes),
       reacquisition(
           std::make_unique<PoseFinder>(shape, object.mesh, diameter_m, config.pixel, config.filter.seed, pool),
-          Distractors(object.mesh, centre_object)) {}
+          Distractors(object.mesh, centre_object), symmetries) {}
 
 ObjectTracker::ObjectTracker(ObjectModel object, const TrackerConfig& config)
     : implementation_(std::make_unique<Implementation>(std::move(object), config)) {}

@@ -47,21 +47,27 @@ double againstMerging(const PoseAssessment& assessment) {
   return kPerShare * std::max(0.0, share - kUsualShare);
 }
 
+constexpr double kPerLogScore = 32.2, kLeastLogScore = -0.35;
+
+double logScore(const PoseAssessment& assessment, double usual_score) {
+  constexpr double kNone = 0.02;
+  return std::log(std::max(kNone, assessment.achieved / assessment.expected / usual_score));
+}
+
 }  // namespace
 
 double findLogOdds(const PoseAssessment& assessment, double usual_score) {
   // Logistic regression on 50,000 poses found in images of 80 simulated scenes of 11 objects, some of them while the
   // object is hidden, and on a real mug. Scores of the simulated ones were lowered by 3 % (one standard deviation):
   // real meshes fit differently from view to view.
-  constexpr double kConstant = -13.84, kPerLogScore = 32.2, kPerContinuedShare = -16.8, kPerBoth = -76.6;
+  constexpr double kConstant = -13.84, kPerContinuedShare = -16.8, kPerBoth = -76.6;
   constexpr double kPerLogBeyond = 2.01, kPerLogCells = 3.67;
-  constexpr double kLeastLogScore = -0.35, kMostContinuedForBoth = 0.3, kLeastBeyond = 0.03;
+  constexpr double kMostContinuedForBoth = 0.3, kLeastBeyond = 0.03;
   constexpr double kUsualCells = 800.0;  // something large near the camera has more cells, but is no likelier
   // More in view makes the object no surer: most of what is taken for it is large and in full view.
   constexpr double kEnoughVisible = 0.3;
   if (!(assessment.expected > 0.0)) return -std::numeric_limits<double>::infinity();
-  const double score = assessment.achieved / assessment.expected / usual_score;
-  const double log_score = std::clamp(std::log(std::max(score, 1e-3)), kLeastLogScore, 0.0);
+  const double log_score = std::clamp(logScore(assessment, usual_score), kLeastLogScore, 0.0);
   const double around = std::max(1, assessment.surrounding_pixels);
   const double continued = assessment.continued_pixels / around, beyond = assessment.beyond_pixels / around;
   const double cells = assessment.measured_pixels * std::min(1.0, kUsualCells / std::max(1, assessment.covered_pixels));
@@ -70,6 +76,11 @@ double findLogOdds(const PoseAssessment& assessment, double usual_score) {
          kPerLogBeyond * std::log(kLeastBeyond + beyond) +
          kPerLogCells * std::log(std::max(1.0, cells * std::min(kEnoughVisible, assessment.visibleShare()))) -
          againstMerging(assessment);
+}
+
+double slopeOfPoorFits(const PoseAssessment& assessment, double usual_score) {
+  if (!(assessment.expected > 0.0)) return 0.0;
+  return kPerLogScore * std::min(0.0, logScore(assessment, usual_score) - kLeastLogScore);
 }
 
 namespace {

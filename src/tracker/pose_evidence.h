@@ -19,6 +19,10 @@ double findEvidence(const PoseAssessment& assessment);
 /// usually does is something else, and a mesh that fits badly fits badly everywhere.
 double findLogOdds(const PoseAssessment& assessment, double usual_score);
 
+/// Evidence [nat], <= 0, by which fits differ that are too poor for findLogOdds() to tell them apart: a search needs a
+/// slope to climb.
+double slopeOfPoorFits(const PoseAssessment& assessment, double usual_score);
+
 /// Evidence [nat], gathered over images, that a pose needs to be taken for the object's.
 /// @param remoteness 0 where the object is expected, 1 far from it. @param is_hidden most likely it is still behind
 /// what hides it.

@@ -65,6 +65,7 @@ PoseFinder::PoseFinder(const ObjectShape& shape, const TriangleMesh& mesh, doubl
       image_draws_(objectPoints(mesh, shape.centre_object), diameter_m, seed, pool_),
       sparse_(image_draws_.objectPoints(), diameter_m),
       table_draws_(mesh, shape.centre_object, image_draws_.objectPoints(), seed),
+      sampler_(seed, *pool_),
       coarse_(shape, readingsAlone(config), OcclusionChainConfig(), 1, pool_),
       fine_(shape, readingsAlone(config), OcclusionChainConfig(), 1, pool_),
       pixel_config_(config) {}
@@ -177,6 +178,19 @@ FoundPose PoseFinder::judge(const Pose& T_camera_centre) {
   return {T_camera_centre, assessment, findQuality(assessment), findEvidence(assessment)};
 }
 
+FoundPose PoseFinder::sampleAround(const Pose& T_camera_centre, const Vector6d& variances,
+                                   const std::function<double(const FoundPose&)>& value) {
+  constexpr ClimbSchedule kNarrow{0.002, 0.0015, 4};  // a broader view is drawn away by what is beside the object
+  const auto value_at = [&](const Pose& pose, double width_m, int thread) {
+    const PoseAssessment assessment = fine_.assess(pose, thread, width_m);
+    return value({pose, assessment, findQuality(assessment), findEvidence(assessment)});
+  };
+  const auto climb = [&](const Pose& pose, int thread) { return climbLikelihood(fine_, pose, kNarrow, thread); };
+  const Pose highest = sampler_.highest(T_camera_centre, variances, value_at, climb, drawn_);
+  drawn_ += PoseSampler::numDraws();
+  return judge(highest);
+}
+
 /// Large planes are there without the object, and say nothing for it where it would lie in them.
 void PoseFinder::findBackground() {
   if (has_background_) return;
@@ -286,6 +300,7 @@ std::vector<FoundPose> PoseFinder::climbBest(const std::vector<Pose>& drawn, con
   poses = distinct(rank(poses, value(fine_, 0.001)), std::max(effort.refined / 2, kFinalCandidates), 0.005);
   climbAll(fine_, {0.002, 0.0015, 8}, poses);
   std::vector<FoundPose> found;
+  found.reserve(poses.size());
   for (const Pose& pose : poses) found.push_back(judge(pose));
   std::stable_sort(found.begin(), found.end(), [by_evidence](const FoundPose& a, const FoundPose& b) {
     return by_evidence ? a.evidence > b.evidence : a.quality > b.quality;

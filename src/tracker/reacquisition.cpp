@@ -149,10 +149,13 @@ double Reacquisition::logOdds(const FoundPose& found) const {
 }
 
 double Reacquisition::outOfHand(const Pose& T_camera_centre) const {
-  constexpr double kStddevM = 0.02, kMostNat = 6.0;  // it may have been dropped without the robot's noticing
+  // It may have slipped, or have been dropped without the robot's noticing.
+  constexpr double kStddevM = 0.02, kStddevRad = 0.4, kMostNat = 6.0;
   if (!in_hand_) return 0.0;
-  const double stddevs = (T_camera_centre.translation() - in_hand_->translation()).norm() / kStddevM;
-  return std::min(kMostNat, 0.5 * stddevs * stddevs);
+  const Vector6d apart = difference(foldOntoReference(T_camera_centre, *in_hand_, symmetries_), *in_hand_);
+  const double squared =
+      apart.head<3>().squaredNorm() / (kStddevM * kStddevM) + apart.tail<3>().squaredNorm() / (kStddevRad * kStddevRad);
+  return std::min(kMostNat, 0.5 * squared);
 }
 
 double Reacquisition::learn(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre) {
@@ -175,14 +178,17 @@ double Reacquisition::judge(const DepthImageView& depth, const PinholeCamera& ca
 }
 
 std::optional<Pose> Reacquisition::findGiven(const DepthImageView& depth, const PinholeCamera& camera,
-                                             const Pose& T_camera_centre, const Pose& given,
-                                             const Vector6d& variances) {
+                                             const Pose& T_camera_centre, const Pose& given, const Vector6d& variances,
+                                             int samplings) {
   constexpr double kSurerNat = 1.0, kLeastNat = -2.5, kLeastInHandNat = -7.0;
   constexpr double kSurerInHandNat = 3.0;  // where little is seen, that little may be the hand
   constexpr std::array<double, 3> kShares = {0.1, 0.3, 1.0};
   finder_->setImage(depth, camera, std::max(0.2, given.translation().z()));
   const auto log_posterior = [&](const FoundPose& one) {
     return logOdds(one) - 0.5 * difference(one.T_camera_centre, given).cwiseAbs2().cwiseQuotient(variances).sum();
+  };
+  const auto sampled_value = [&](const FoundPose& one) {
+    return log_posterior(one) + slopeOfPoorFits(one.assessment, usualScore());
   };
   const FoundPose now = finder_->judge(T_camera_centre);
   const double enough = std::max(in_hand_ ? kLeastInHandNat : kLeastNat, logOdds(now) + kSurerNat);
@@ -193,6 +199,7 @@ std::optional<Pose> Reacquisition::findGiven(const DepthImageView& depth, const 
   const FoundPose there = finder_->judge(given);
   found_.push_back(there);
   for (const double share : kShares) found_.push_back(finder_->settle(there, given, share * share * variances));
+  for (int i = 0; i < samplings; ++i) found_.push_back(finder_->sampleAround(given, variances, sampled_value));
   for (const FoundPose& one : found_) {
     if (log_posterior(one) <= most || logOdds(one) <= enough) continue;
     most = log_posterior(one);
@@ -249,6 +256,7 @@ std::vector<Pose> Reacquisition::lookAround(const DepthImageView& depth, const P
 std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const PinholeCamera& camera,
                                               const Pose& T_camera_centre, const OtherPoses& others) {
   constexpr double kSurer = 0.08, kElsewhereM = 0.01, kElsewhereRad = 0.2;
+  constexpr double kSurerInHand = 2.0, kLeastInHand = -5.0;  // [nat]
   finder_->setImage(depth, camera, std::max(0.2, T_camera_centre.translation().z()), others.occluders);
   found_ = finder_->searchAround({T_camera_centre}, others.variances, kAround);
   if (others.everywhere) {
@@ -262,7 +270,7 @@ std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const
   constexpr double kExplainsMore = 1.1, kLeastNat = -3.0;
   if (!found_.empty() && others.everywhere) {
     constexpr double kMuchLikelier = 2.0, kSureByItself = 2.0, kLikelier = 1.0, kFarLikelier = 6.0;
-    constexpr double kBeyondDoubt = 4.0;
+    constexpr double kTurnedRad = 1.0;
     constexpr double kOddNat = -2.5, kLikelyByItself = 0.5, kLikelierThanOdd = 4.0;
     const auto surer = [&](const FoundPose& one) {
       return logOdds(one) - distractors_.against(one.T_camera_centre, T_camera_centre, others.memory_s);
@@ -270,6 +278,8 @@ std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const
     const auto best = std::max_element(
         found_.begin(), found_.end(), [&surer](const FoundPose& a, const FoundPose& b) { return surer(a) < surer(b); });
     const bool is_here = (best->T_camera_centre.translation() - T_camera_centre.translation()).norm() < kSameM;
+    const double turned_rad = difference(best->T_camera_centre, T_camera_centre).tail<3>().norm();
+    const bool is_nearly_here = is_here && turned_rad < kTurnedRad;
     const double more = best->assessment.log_likelihood / std::max(1.0, now.assessment.log_likelihood);
     const double far = is_here ? 0.0 : unreachable(*best, T_camera_centre, others);
     const double odds = surer(*best) - far, odds_now = logOdds(now);
@@ -277,16 +287,15 @@ std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const
     const bool explains_more =
         more > (is_here ? 1.0 : kExplainsMore) || odds > odds_now + (is_odd ? kLikelierThanOdd : kFarLikelier);
     const double by_itself = is_odd ? kLikelyByItself : kSureByItself;
-    if (explains_more && odds > std::max(by_itself, odds_now + (is_here           ? kLikelier
-                                                                : others.is_early ? kBeyondDoubt
-                                                                                  : kMuchLikelier))) {
+    if (explains_more && odds > std::max(by_itself, odds_now + (is_nearly_here ? kLikelier : kMuchLikelier))) {
       return best->T_camera_centre;
     }
     return std::nullopt;
   }
   if (!found_.empty() && others.by_likelihood) {
     const FoundPose& most = mostExplaining(found_);
-    const bool is_better = most.quality > now.quality && logOdds(most) > std::min(kLeastNat, logOdds(now)) &&
+    const double least_nat = in_hand_ ? logOdds(now) + kSurerInHand : std::min(kLeastNat, logOdds(now));
+    const bool is_better = most.quality > now.quality && logOdds(most) > least_nat &&
                            most.assessment.log_likelihood > kExplainsMore * now.assessment.log_likelihood;
     if (is_better) return most.T_camera_centre;
     return std::nullopt;
@@ -296,7 +305,7 @@ std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const
     return std::nullopt;
   }
   if (found_.front().assessment.log_likelihood < now.assessment.log_likelihood) return std::nullopt;
-  if (in_hand_ && logOdds(found_.front()) < logOdds(now)) return std::nullopt;
+  if (in_hand_ && logOdds(found_.front()) < std::max(kLeastInHand, logOdds(now) + kSurerInHand)) return std::nullopt;
   const Vector6d moved = difference(found_.front().T_camera_centre, T_camera_centre);
   if (moved.head<3>().norm() < kElsewhereM && moved.tail<3>().norm() < kElsewhereRad) return std::nullopt;
   return finder_->settle(found_.front(), T_camera_centre, others.variances).T_camera_centre;

@@ -104,6 +104,7 @@ class ObjectTracker::Implementation {
   bool follows_hand = false;
   bool is_back_in_hand = false;    // the filter starts where the hand should have the object, and looks nowhere else
   bool is_hidden_in_hand = false;  // most of it, in this image: the robot's motion says more than what little is seen
+  double slipped_unseen_s = kLongAgoS;        // since what was seen of an object in the hand contradicted that
   Vector6d hand_velocity = Vector6d::Zero();  // of the centre as the robot has it; zero when it is not followed
   FrameClock clock;
   bool is_given = false;                      // the pose, since the last image, by hand or by a robot
@@ -136,7 +137,10 @@ class ObjectTracker::Implementation {
   /// Starts the filter at a pose that is better than its own; where it leaves that for a worse one, it stays in the
   /// hand.
   FilterEstimate lookInHand(const DepthImageView& depth, double dt_s, const std::optional<ControlInput>& control,
-                            const Pose& better, const Pose& grasp);
+                            const Pose& better);
+  void startInHand(const Pose& T_camera_centre);
+  /// Kept where the hand has it, because what is seen there draws away from it.
+  bool waitsInHand() const { return is_blind && grasp_memory.pose() && status.state() == TrackerState::kInitializing; }
   /// A hand beside the object may explain more of the image than the object itself.
   bool leavesForWorse(const DepthImageView& depth, const Pose& T_camera_centre, const Pose& better);
   double scoreInHand() const;

@@ -160,6 +160,7 @@ FrameClock::Step ObjectTracker::Implementation::advanceClock(double stamp_s) {
     filter.stopMotion();
     status.restart();
     smoother.restart();
+    since_fitted_s = kLongAgoS;
     is_blind = is_anywhere;
     if (!is_anywhere) initial_variances = defaultInitialVariances(config.initialisation);
   }
@@ -218,7 +219,7 @@ void ObjectTracker::Implementation::rememberFit(const FilterEstimate& estimate, 
   const bool nothing_seen = status.visibleFraction() < kBlindBelowVisibleFraction || status.misfit();
   const bool never_fitted = status.state() == TrackerState::kInitializing && initialising_s > kFitsWithinS;
   const bool lost = status.state() == TrackerState::kLost;
-  is_blind = is_anywhere || (may_be_blind && (is_blind || nothing_seen || never_fitted || lost));
+  is_blind = is_anywhere || waitsInHand() || (may_be_blind && (is_blind || nothing_seen || never_fitted || lost));
 }
 
 void ObjectTracker::Implementation::calibrate(FilterEstimate& estimate, double dt_s) {
@@ -277,7 +278,8 @@ void ObjectTracker::Implementation::writeEstimate(const FilterEstimate& estimate
 
 void ObjectTracker::Implementation::writeStatus(const PoseAssessment& assessment) {
   result.state = status.state();
-  result.reason = hidden_start ? "something hides the object: following the hand until it is seen" : status.reason();
+  result.reason = hidden_start || waitsInHand() ? "something hides the object: following the hand until it is seen"
+                                                : status.reason();
   result.visible_fraction = status.visibleFraction();
   result.score = status.state() == TrackerState::kLost ? 0.0 : status.score();
   result.log_likelihood = assessment.log_likelihood;

@@ -9,6 +9,8 @@ namespace {
 
 // Of an object in a robot's hand: error of the mesh and the sensor, and how fast it may slip.
 constexpr double kHeldReachM = 0.004, kHeldSpeedM_s = 0.1;
+// What little is seen contradicts the hand: the object has slipped where it is hidden, and is looked for.
+constexpr double kSlippedScore = 0.6, kSlippedForS = 1.0;
 // Where a hand has an object that was not seen yet is worth knowing up to here; then it is searched as any other.
 constexpr double kMostHiddenStddevM = 0.05, kMostHiddenStddevRad = 0.5;
 // Of what is found beside the hand. A hand goes on beside the outline, however well it fits; and where no outline is
@@ -27,6 +29,15 @@ Vector6d inHandVariances() {
   return variances;
 }
 
+/// Of a pose that was found in the hand: what is beside it, and fits worse but explains more, is farther.
+Vector6d sampledVariances() {
+  constexpr double kStddevM = 0.0015, kStddevRad = 0.02;
+  Vector6d variances;
+  variances.head<3>().setConstant(kStddevM * kStddevM);
+  variances.tail<3>().setConstant(kStddevRad * kStddevRad);
+  return variances;
+}
+
 }  // namespace
 
 void ObjectTracker::Implementation::setAsideWhatIsNotHeld(const DepthImageView& depth, const SamplingGrid& grid,
@@ -34,7 +45,10 @@ void ObjectTracker::Implementation::setAsideWhatIsNotHeld(const DepthImageView& 
   const bool was_hidden = is_hidden_in_hand;
   is_hidden_in_hand = false;
   if (waitForTheHandToShowIt(depth, grid, dt_s, control)) return;
-  if (!follows_hand || is_blind || initial_variances || !control || !control->isFollowed() || !mayReacquire()) {
+  slipped_unseen_s = was_hidden && status.score() < kSlippedScore * scoreInHand() ? 0.0 : slipped_unseen_s + dt_s;
+  const bool may_have_slipped = slipped_unseen_s < kSlippedForS;
+  if (may_have_slipped || !follows_hand || is_blind || initial_variances || !control || !control->isFollowed() ||
+      !mayReacquire()) {
     held_view.reset();
     return;
   }
@@ -157,30 +171,35 @@ bool ObjectTracker::Implementation::returnToGrasp(const DepthImageView& depth, d
   if (!follows_hand || hidden_start || is_hidden_in_hand) return false;
   const double score = is_blind ? 0.0 : assessment.achieved / std::max(1e-9, assessment.expected);
   if (!grasp_memory.isDue(estimate.pose.mean, score / scoreInHand())) return false;
-  const Pose grasp = *grasp_memory.pose();
   const std::optional<Pose> better =
-      reacquisition.findGiven(depth, camera_in_use, estimate.pose.mean, grasp, inHandVariances());
+      reacquisition.findGiven(depth, camera_in_use, estimate.pose.mean, *grasp_memory.pose(), inHandVariances(), 1);
   grasp_memory.compared();
   if (!better) return false;
-  estimate = lookInHand(depth, dt_s, control, *better, grasp);
+  estimate = lookInHand(depth, dt_s, control, *better);
   return true;
 }
 
 FilterEstimate ObjectTracker::Implementation::lookInHand(const DepthImageView& depth, double dt_s,
-                                                         const std::optional<ControlInput>& control, const Pose& better,
-                                                         const Pose& grasp) {
-  startAt(better);
-  turn_prior.stddev_rad = std::sqrt(inHandVariances().tail<3>().maxCoeff());
-  free_turn.restart(turn_prior.stddev_rad);
+                                                         const std::optional<ControlInput>& control,
+                                                         const Pose& better) {
+  startInHand(better);
   is_back_in_hand = true;
   is_blind = false;
-  const FilterEstimate estimate = look(dt_s, control);
+  FilterEstimate estimate = look(dt_s, control);
   if (!leavesForWorse(depth, estimate.pose.mean, better)) return estimate;
-  // What hides it draws the filter away: it stays where the hand has it until more is seen.
-  startAt(grasp);
+  // What hides it draws the filter away: it stays there until more is seen.
+  startInHand(better);
+  grasp_memory.moved(better);
   initial_variances.reset();
   is_blind = true;
   return hold(dt_s, control);
+}
+
+void ObjectTracker::Implementation::startInHand(const Pose& T_camera_centre) {
+  startAt(T_camera_centre);
+  initial_variances = sampledVariances();
+  turn_prior.stddev_rad = std::sqrt(inHandVariances().tail<3>().maxCoeff());
+  free_turn.restart(turn_prior.stddev_rad);
 }
 
 bool ObjectTracker::Implementation::leavesForWorse(const DepthImageView& depth, const Pose& T_camera_centre,

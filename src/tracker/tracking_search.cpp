@@ -13,7 +13,6 @@ constexpr double kUsualTurnRad = 0.25;
 constexpr double kTrustedForS = 2.0, kSureNat = 2.0, kNotOddNat = -3.0;
 constexpr double kDoubtfulAfterFindS = 0.7;
 constexpr double kDoubtedAtFirstS = 0.12, kBetweenChecksS = 0.05;  // in every image, and then in some
-constexpr double kEarlyS = 0.6;                                    // after a find
 constexpr double kDoubtfulReachS = 1.5;                            // as far as after this long unseen, at most
 
 Vector6d foundVariances() {
@@ -72,11 +71,12 @@ void ObjectTracker::Implementation::startFromGiven(const DepthImageView& depth, 
     assessment = assess(estimate);
     if (fits(assessment)) return;
   }
-  const std::optional<Pose> better =
-      reacquisition.findGiven(depth, camera_in_use, estimate.pose.mean, given.T_camera_centre, given.variances);
+  constexpr int kSamplingsInHand = 3;
+  const std::optional<Pose> better = reacquisition.findGiven(
+      depth, camera_in_use, estimate.pose.mean, given.T_camera_centre, given.variances, is_held ? kSamplingsInHand : 0);
   if (!better) return;
   if (is_held) {
-    estimate = lookInHand(depth, dt_s, control, *better, given.T_camera_centre);
+    estimate = lookInHand(depth, dt_s, control, *better);
   } else {
     startAt(*better);
     estimate = look(dt_s, control);
@@ -104,7 +104,7 @@ bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, doubl
   region.was_followed = since_sure_s - unseen_s < kTrustedForS;
   region.occluders = known_occluders;
   const std::optional<Pose> found = reacquisition.search(depth, camera_in_use, region);
-  if (!found) return false;
+  if (!found || (grasp_memory.pose() && leavesForWorse(depth, *found, *grasp_memory.pose()))) return false;
   before_find.reset();
   if (region.is_known) before_find = BeforeFind{last_mean, seen_velocity, unseen_s, since_sure_s, status.state()};
   startAt(*found);
@@ -138,7 +138,6 @@ bool ObjectTracker::Implementation::moveToBetterPose(const DepthImageView& depth
   others.occluders = known_occluders;
   others.memory_s = since_remembered_s;
   others.is_unproven = doubt.isUnproven();
-  others.is_early = reacquired_s < kEarlyS;
   others.everywhere = look == Doubt::Look::kEverywhere;
   others.by_likelihood = just_found || others.everywhere;
   others.variances = just_found ? anyTurnVariances() : searchVariances(std::min(doubt.poorSince(), kDoubtfulReachS));

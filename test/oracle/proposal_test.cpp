@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 
@@ -220,6 +221,26 @@ TEST(FarHypotheses, MustExplainWhatTheyCover) {
     FilterEstimate estimate;
     for (int k = 0; k < 3; ++k) estimate = filter.update(likelihood, stepOf(process, kFrameS), 1.0, hypotheses);
     EXPECT_NEAR(estimate.pose.mean.translation().x(), far_explains ? TwoPlaces::kFarM : 0.0, 0.005) << far_explains;
+  }
+}
+
+/// The climb ends where nothing can be said, and the image is so clear that one draw outweighs all others.
+TEST(WithoutAMode, TheCovarianceIsNotThatOfOneDraw) {
+  const Vector6d truth = 0.003 * Vector6d::Ones();
+  ToyLikelihood likelihood(
+      [&](const Vector6d& x) {
+        return x.norm() < 1e-9 ? -std::numeric_limits<double>::infinity() : -1e9 * (x - truth).squaredNorm();
+      },
+      [](const Vector6d&) {
+        return Linearisation{Vector6d::Zero(), Matrix6d::Zero()};
+      });
+  ParticleFilter filter(FilterConfig(), kRadiusM, Symmetries());
+  filter.initialise(Pose::Identity());
+  const ProcessStep step = stepOf(randomWalk(0.02, 0.02), kFrameS);
+  const FilterEstimate estimate = filter.update(likelihood, step, 1.0);
+  ASSERT_LT(estimate.effective_sample_size, 1.5);
+  for (int axis = 0; axis < 6; ++axis) {
+    EXPECT_GT(estimate.pose.covariance(axis, axis), 0.5 * step.component(0).variances[axis]);
   }
 }
 

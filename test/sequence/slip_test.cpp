@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Slip, decided from depth and the robot's motion, against the simulator's truth.
-#include "millimetre_view.h"
+#include "followed_scene.h"
 
 #include "depth_object_tracker/simulator/scene_simulator.h"
 #include "depth_object_tracker/tracker/object_tracker.h"
@@ -58,6 +58,20 @@ TEST(Slip, IsToldFromAFirmGraspOfARobotWithWrongKinematics) {
                                     [&](const Decision& d) { return !d.second && d.first > threshold; });
   const auto still = std::count_if(decisions.begin(), decisions.end(), [](const Decision& d) { return !d.second; });
   EXPECT_LT(static_cast<double>(alarms), 0.04 * static_cast<double>(still));  // also just after a slip
+}
+
+TEST(Slip, BehindTheFingersIsFollowedOnceItShows) {
+  constexpr int kImages = 150, kSlipsFrom = 120;
+  constexpr double kElsewhereM = 0.01;
+  SimulationConfig config;
+  config.scenario = Scenario::kSlip;
+  config.hand_coverage = 0.6;
+  config.seed = 3205;
+  int elsewhere = 0, images = 0;
+  followScene("bottle", config, kImages, [&](const SimulatedFrame&, const TrackerResult&, double off_m) {
+    elsewhere += images++ >= kSlipsFrom && off_m > kElsewhereM ? 1 : 0;
+  });
+  EXPECT_LE(elsewhere, 6);
 }
 
 }  // namespace

@@ -37,6 +37,7 @@ add_tracker_test(model_unit_tests SOURCES
   unit/model_occlusion_chain_test.cpp
   unit/model_process_test.cpp
   unit/model_slip_test.cpp
+  unit/pose_sampler_test.cpp
   unit/pose_search_test.cpp
   unit/search_region_test.cpp
   unit/frame_budget_test.cpp

@@ -8,10 +8,12 @@
 #include "depth_object_tracker/render/known_occluders.h"
 #include "depth_object_tracker/tracker/image_draws.h"
 #include "depth_object_tracker/tracker/plane_finder.h"
+#include "depth_object_tracker/tracker/pose_sampler.h"
 #include "depth_object_tracker/tracker/sparse_fit.h"
 #include "depth_object_tracker/tracker/table_draws.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -71,6 +73,12 @@ class PoseFinder {
   /// How surely the object is at a given pose.
   FoundPose judge(const Pose& T_camera_centre);
 
+  /// The pose about a given one at which a value of what is seen there is highest: see PoseSampler. Takes longer than
+  /// searchAround(), and finds what that misses: a pose that something beside it outdoes by the likelihood.
+  /// @param value called from several threads; outlines of what is hidden are not part of the assessment.
+  FoundPose sampleAround(const Pose& T_camera_centre, const Vector6d& variances,
+                         const std::function<double(const FoundPose&)>& value);
+
  private:
   struct Ranked {
     Pose pose;
@@ -97,6 +105,7 @@ class PoseFinder {
   ImageDraws image_draws_;
   SparseFit sparse_;
   TableDraws table_draws_;
+  PoseSampler sampler_;
   DepthLikelihood coarse_, fine_;
   DepthImageView depth_;
   std::vector<float> free_depth_m_;  // where something else is seen there is no reading

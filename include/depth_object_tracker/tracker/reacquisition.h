@@ -2,6 +2,7 @@
 // Looks for an object that is hidden or lost, image after image, until it is surely seen again.
 #pragma once
 
+#include "depth_object_tracker/geometry/symmetry.h"
 #include "depth_object_tracker/tracker/distractors.h"
 #include "depth_object_tracker/tracker/pose_finder.h"
 #include "depth_object_tracker/tracker/search_region.h"
@@ -20,15 +21,15 @@ struct OtherPoses {
   /// Of where the object may be [m^2], about an estimate that was surely followed; none = anywhere.
   std::optional<Eigen::Vector3d> reach;
   bool is_unproven = false;             ///< the estimate was found, and never surely seen since
-  bool is_early = false;                ///< the estimate was found a moment ago, when it was the surest there was
   double memory_s = 0.0;                ///< since remember()
   KnownOccluders* occluders = nullptr;  ///< the object is not where one of them is seen; null = none
 };
 
 class Reacquisition {
  public:
-  Reacquisition(std::unique_ptr<PoseFinder> finder, Distractors distractors)
-      : finder_(std::move(finder)), distractors_(std::move(distractors)) {}
+  /// @param symmetries about the centre.
+  Reacquisition(std::unique_ptr<PoseFinder> finder, Distractors distractors, Symmetries symmetries)
+      : finder_(std::move(finder)), distractors_(std::move(distractors)), symmetries_(std::move(symmetries)) {}
 
   /// Forgets what was seen in earlier images.
   void restart() {
@@ -55,10 +56,11 @@ class Reacquisition {
   /// is the object than something else [nat].
   double learn(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre);
 
-  /// A pose was given, and the filter found that it fits badly elsewhere. @return where it fits better, and is
+  /// A pose was given, and the filter found that it fits badly elsewhere. @param samplings times that it is looked for
+  /// where something beside it fits as well, each in vain twice of three times. @return where it fits better, and is
   /// expected.
   std::optional<Pose> findGiven(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre,
-                                const Pose& given, const Vector6d& variances);
+                                const Pose& given, const Vector6d& variances, int samplings);
 
   /// How much likelier it is the object than something else [nat] that is seen at a pose.
   double judge(const DepthImageView& depth, const PinholeCamera& camera, const Pose& T_camera_centre);
@@ -107,6 +109,7 @@ class Reacquisition {
   Distractors distractors_;
   std::optional<double> usual_score_, usual_log_odds_;
   double log_odds_now_ = 0.0;
+  Symmetries symmetries_;
   std::optional<Pose> in_hand_;
   std::vector<Survivor> survivors_;
   std::vector<FoundPose> found_;
