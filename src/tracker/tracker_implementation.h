@@ -104,7 +104,8 @@ class ObjectTracker::Implementation {
   bool follows_hand = false;
   bool is_back_in_hand = false;    // the filter starts where the hand should have the object, and looks nowhere else
   bool is_hidden_in_hand = false;  // most of it, in this image: the robot's motion says more than what little is seen
-  double slipped_unseen_s = kLongAgoS;        // since what was seen of an object in the hand contradicted that
+  double contradicted_s = 0.0;     // for how long what was seen of an object in the hand contradicts that
+  double slipped_unseen_s = kLongAgoS;        // since it did for some images
   Vector6d hand_velocity = Vector6d::Zero();  // of the centre as the robot has it; zero when it is not followed
   FrameClock clock;
   bool is_given = false;                      // the pose, since the last image, by hand or by a robot

@@ -10,7 +10,7 @@ namespace {
 // Of an object in a robot's hand: error of the mesh and the sensor, and how fast it may slip.
 constexpr double kHeldReachM = 0.004, kHeldSpeedM_s = 0.1;
 // What little is seen contradicts the hand: the object has slipped where it is hidden, and is looked for.
-constexpr double kSlippedScore = 0.6, kSlippedForS = 1.0;
+constexpr double kSlippedScore = 0.5, kSlippedAfterS = 0.09, kSlippedForS = 1.0;
 // Where a hand has an object that was not seen yet is worth knowing up to here; then it is searched as any other.
 constexpr double kMostHiddenStddevM = 0.05, kMostHiddenStddevRad = 0.5;
 // Of what is found beside the hand. A hand goes on beside the outline, however well it fits; and where no outline is
@@ -45,7 +45,9 @@ void ObjectTracker::Implementation::setAsideWhatIsNotHeld(const DepthImageView& 
   const bool was_hidden = is_hidden_in_hand;
   is_hidden_in_hand = false;
   if (waitForTheHandToShowIt(depth, grid, dt_s, control)) return;
-  slipped_unseen_s = was_hidden && status.score() < kSlippedScore * scoreInHand() ? 0.0 : slipped_unseen_s + dt_s;
+  const bool is_contradicted = was_hidden && status.score() < kSlippedScore * scoreInHand();
+  contradicted_s = is_contradicted ? contradicted_s + dt_s : 0.0;
+  slipped_unseen_s = contradicted_s > kSlippedAfterS ? 0.0 : slipped_unseen_s + dt_s;
   const bool may_have_slipped = slipped_unseen_s < kSlippedForS;
   if (may_have_slipped || !follows_hand || is_blind || initial_variances || !control || !control->isFollowed() ||
       !mayReacquire()) {
