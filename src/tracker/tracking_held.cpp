@@ -10,7 +10,7 @@ namespace {
 // Of an object in a robot's hand: error of the mesh and the sensor, and how fast it may slip.
 constexpr double kHeldReachM = 0.004, kHeldSpeedM_s = 0.1;
 // What little is seen contradicts the hand: the object has slipped where it is hidden, and is looked for.
-constexpr double kSlippedScore = 0.5, kSlippedAfterS = 0.09, kSlippedForS = 1.0;
+constexpr double kSlippedScore = 0.7, kSlippedAfterS = 0.09, kSlippedForS = 1.0;
 // Where a hand has an object that was not seen yet is worth knowing up to here; then it is searched as any other.
 constexpr double kMostHiddenStddevM = 0.05, kMostHiddenStddevRad = 0.5;
 // Of what is found beside the hand. A hand goes on beside the outline, however well it fits; and where no outline is

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One seed gives one result, byte for byte, on any number of threads.
 #include "depth_object_tracker/geometry/simd_target.h"
+#include "followed_scene.h"
 #include "tracking_run.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 namespace depth_object_tracker {
 namespace {
@@ -53,6 +55,29 @@ TEST_P(Determinism, SameBytesOnAnyNumberOfThreadsAndEveryTime) {
   EXPECT_TRUE(once == bytesOfRun(2, 1, GetParam())) << "two threads differ from one";
   EXPECT_TRUE(once == bytesOfRun(3, 1, GetParam())) << "three threads differ from one";
   EXPECT_FALSE(once == bytesOfRun(1, 2, GetParam())) << "the seed must matter, else this test shows nothing";
+}
+
+/// A palm behind an object that is hardly seen: it is searched in the hand from the first image on.
+std::vector<Pose> posesInAGripper(int num_threads) {
+  constexpr int kImages = 12;
+  SimulationConfig scene;
+  scene.scenario = Scenario::kRobot;
+  scene.hand_coverage = 0.8;
+  scene.seed = 101;
+  TrackerConfig config;
+  config.filter.num_threads = num_threads;
+  std::vector<Pose> poses;
+  followScene(
+      "mug", scene, kImages,
+      [&](const SimulatedFrame&, const TrackerResult& result, double) { poses.push_back(result.T_camera_object); },
+      config);
+  return poses;
+}
+
+TEST(Determinism, SearchesInTheHandAreTheSameOnAnyNumberOfThreads) {
+  const std::vector<Pose> one = posesInAGripper(1), three = posesInAGripper(3);
+  ASSERT_EQ(one.size(), three.size());
+  for (std::size_t k = 0; k < one.size(); ++k) EXPECT_TRUE(one[k].matrix() == three[k].matrix()) << "image " << k;
 }
 
 TEST(Determinism, SameBytesWithEveryInstructionSet) {

@@ -26,12 +26,13 @@ inline std::ostream& operator<<(std::ostream& out, const SceneCase& tested) {
 /// @param visit called after each image. @param off_m from the object's origin to the estimate's.
 /// @return off_m of the last image.
 inline double followScene(const std::string& object_name, const SimulationConfig& config, int num_images,
-                          const std::function<void(const SimulatedFrame&, const TrackerResult&, double off_m)>& visit) {
+                          const std::function<void(const SimulatedFrame&, const TrackerResult&, double off_m)>& visit,
+                          const TrackerConfig& tracker_config = TrackerConfig()) {
   constexpr double kImagesPerS = 30.0;
   ObjectModel object;
   object.mesh = loadMesh(std::string(PROJECT_SOURCE_FOLDER) + "/meshes/" + object_name + ".obj");
   SceneSimulator simulator(object.mesh, config);
-  ObjectTracker tracker(object, TrackerConfig());
+  ObjectTracker tracker(object, tracker_config);
   tracker.initialise(simulator.roughInitialPose());
   double off_m = 0.0;
   for (int k = 0; k < num_images; ++k) {
