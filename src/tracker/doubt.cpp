@@ -14,8 +14,7 @@ constexpr double kBadScore = 0.8, kBriefS = 0.05;
 constexpr double kShakingScore = 0.6, kSomethingVisible = 0.04, kShakenForS = 0.6, kLooksWhileShakenS = 0.2;
 constexpr double kPoorScoreOfLittle = 0.8, kPoorForS = 0.2;  // little that is seen often fits a little worse
 constexpr double kLookAroundForS = 2.0;                      // often; in vain: from time to time
-constexpr double kFirstCheckS = 0.2, kSecondCheckS = 0.75,
-                 kLastCheckS = 3.0;  // after a find, the others each twice as late
+constexpr double kFirstCheckS = 0.2, kLastCheckS = 3.0;  // after a find, each twice as late as the one before
 constexpr double kFall = 0.1, kLevelOverS = 0.5, kNewForS = 0.3, kOldEveryS = 0.1;
 constexpr double kOddNat = -2.5, kProvenNat = 2.0;
 constexpr double kLongestIntervalIfOddS = 1.0;
@@ -74,8 +73,7 @@ bool Doubt::mayHaveJumped() const {
 void Doubt::looked(Look look) {
   if (look != Look::kNowhere) since_around_s_ = 0.0;
   if (look == Look::kEverywhere && since_found_s_ > next_check_s_) {
-    const double later_s = std::max(kSecondCheckS, 2.0 * next_check_s_);
-    next_check_s_ = next_check_s_ < kLastCheckS ? later_s : std::numeric_limits<double>::infinity();
+    next_check_s_ = next_check_s_ < kLastCheckS ? 2.0 * next_check_s_ : std::numeric_limits<double>::infinity();
   }
   if (look == Look::kNowhere || (look == Look::kAround && poor_s_ < kLookAroundForS)) return;
   since_look_s_ = 0.0;

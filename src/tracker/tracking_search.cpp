@@ -123,7 +123,8 @@ bool ObjectTracker::Implementation::reacquire(const DepthImageView& depth, doubl
 Doubt::Look ObjectTracker::Implementation::whereToLook() const {
   if (!mayReacquire() || initial_variances || status.state() != TrackerState::kTracking) return Doubt::Look::kNowhere;
   if (is_hidden_in_hand) return Doubt::Look::kNowhere;
-  if (reacquired_s >= kDoubtfulAfterFindS) return doubt.look();
+  const Doubt::Look look = doubt.look();
+  if (reacquired_s >= kDoubtfulAfterFindS || look == Doubt::Look::kEverywhere) return look;
   const bool is_due = reacquired_s < kDoubtedAtFirstS || since_check_s > kBetweenChecksS;
   return is_due ? Doubt::Look::kAround : Doubt::Look::kNowhere;
 }

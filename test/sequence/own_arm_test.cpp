@@ -38,5 +38,21 @@ TEST_P(AnArm, IsNotTakenForTheObjectThatItHolds) {
   EXPECT_LT(last_m, 0.01);
 }
 
+// The object comes back where it is not expected, a moment after the arm was taken for it.
+TEST(AnArmThatWasFound, IsLeftSoonAfterTheObjectIsBack) {
+  constexpr int kImages = 110;
+  constexpr double kElsewhereM = 0.05;
+  SimulationConfig config;
+  config.occluders = Occluders::kFull;
+  config.seed = 3701;
+  int elsewhere = 0;
+  const double last_m =
+      followScene("mug", config, kImages, [&](const SimulatedFrame&, const TrackerResult& result, double off_m) {
+        elsewhere += result.state == TrackerState::kTracking && off_m > kElsewhereM ? 1 : 0;
+      });
+  EXPECT_LE(elsewhere, 15);  // the object is in full view from the fifth of them on
+  EXPECT_LT(last_m, 0.01);
+}
+
 }  // namespace
 }  // namespace depth_object_tracker
