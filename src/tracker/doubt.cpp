@@ -14,7 +14,7 @@ constexpr double kBadScore = 0.8, kBriefS = 0.05;
 constexpr double kShakingScore = 0.6, kSomethingVisible = 0.04, kShakenForS = 0.6, kLooksWhileShakenS = 0.2;
 constexpr double kPoorScoreOfLittle = 0.8, kPoorForS = 0.2;  // little that is seen often fits a little worse
 constexpr double kLookAroundForS = 2.0;                      // often; in vain: from time to time
-constexpr double kFirstCheckS = 0.2, kLastCheckS = 3.0;  // after a find, each twice as late as the one before
+constexpr double kFirstCheckS = 0.2, kLastCheckS = 3.0;      // after a find, each twice as late as the one before
 constexpr double kFall = 0.1, kLevelOverS = 0.5, kNewForS = 0.3, kOldEveryS = 0.1;
 constexpr double kOddNat = -2.5, kProvenNat = 2.0;
 constexpr double kLongestIntervalIfOddS = 1.0;
