@@ -2,9 +2,11 @@
 #include "depth_object_tracker/tracker/free_turn.h"
 
 #include "depth_object_tracker/geometry/pose.h"
+#include "tracker/pose_evidence.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace depth_object_tracker {
 namespace {
@@ -58,8 +60,8 @@ std::optional<Pose> FreeTurn::update(DepthLikelihood& likelihood, const Pose& pr
     const double farther = axis.axis.direction.dot(surprise);
     axis.belief.turnEstimate(farther);
     axis.belief.diffuse(grownBy(motion, estimate.linear() * axis.axis.direction));
-    const int allowed = look(likelihood, estimate, exponent, axis);
-    axis.is_free = allowed > 0;
+    const Look look = this->look(likelihood, estimate, exponent, axis);
+    axis.is_free = look.allowed > 0;
     axis.rate *= std::exp2(-motion.dt_s / kRateHalfLifeS);
     if (!axis.is_free) axis.rate = motion.angular_velocity.dot(estimate.linear() * axis.axis.direction);
     if (std::abs(farther) > kJumpRad) axis.rate = 0.0;
@@ -67,7 +69,8 @@ std::optional<Pose> FreeTurn::update(DepthLikelihood& likelihood, const Pose& pr
     // what may be, as far as the angle spreads.
     const bool is_good = axis.belief.near(-farther) > kGoodShare * axis.belief.peak();
     const double angle = is_good ? -farther : axis.belief.moments().mean;
-    if (allowed < kLeastStepsToTurn || std::abs(angle) < kLeastTurnRad) continue;
+    const bool may_turn = look.allowed >= kLeastStepsToTurn || look.is_contradicted;
+    if (!may_turn || std::abs(angle) < kLeastTurnRad) continue;
     axis.belief.turnEstimate(angle);
     turn = turnAbout(axis.axis, angle);
   }
@@ -82,30 +85,47 @@ void FreeTurn::prepare(DepthLikelihood& likelihood, const Pose& estimate) {
   likelihood.prepare(region_);
 }
 
-int FreeTurn::look(DepthLikelihood& likelihood, const Pose& estimate, double exponent, Axis& axis) {
-  const double now = likelihood.logLikelihood(estimate, 0);
-  against_.fill(kMostAgainstNat);
-  against_[0] = 0.0;
-  int allowed = 0;
+FreeTurn::Look FreeTurn::look(DepthLikelihood& likelihood, const Pose& estimate, double exponent, Axis& axis) {
+  const auto at = [&](double angle) { return estimate * turnAbout(axis.axis, angle); };
+  const double now = exponent * likelihood.logLikelihood(estimate, 0);
+  evidence_.fill(-std::numeric_limits<double>::infinity());
+  evidence_[0] = now;
+  double best = now, best_angle = 0.0;
+  Look look;
   for (const int way : {-1, 1}) {
     bool is_next = true;  // to the estimate, with nothing in between that is contradicted
     for (int k = 1; k <= kStepsPerHalfTurn; ++k) {
       const double angle = way * k * kStepRad;
-      if (!is_next && axis.belief.near(angle) < kNegligibleShare) continue;
-      const double worse = exponent * (now - likelihood.logLikelihood(estimate * turnAbout(axis.axis, angle), 0));
-      is_next = is_next && worse < kContradictedNat;
-      if (is_next) ++allowed;
-      against_[static_cast<std::size_t>((way * k + AngleBelief::kSteps) % AngleBelief::kSteps)] =
-          std::clamp(worse - kContradictedNat, 0.0, kMostAgainstNat);
+      const bool is_believed = axis.belief.near(angle) > kNegligibleShare;
+      if (!is_next && !is_believed) continue;
+      const double there = exponent * likelihood.logLikelihood(at(angle), 0);
+      evidence_[static_cast<std::size_t>((way * k + AngleBelief::kSteps) % AngleBelief::kSteps)] = there;
+      is_next = is_next && now - there < kContradictedNat;
+      if (is_next) ++look.allowed;
+      if (!is_believed || there <= best) continue;
+      best = there;
+      best_angle = angle;
     }
   }
-  axis.belief.weigh([this](double angle) {
+  // The estimate may be what is contradicted; but a finger makes a fine handle, too.
+  if (best > now + kContradictedNat) {
+    best = std::max(now, best + outlineEvidence(likelihood, at(best_angle), estimate));
+  }
+  look.is_contradicted = best > now + kContradictedNat;
+  weigh(best, axis.belief);
+  return look;
+}
+
+void FreeTurn::weigh(double best, AngleBelief& belief) const {
+  const auto against = [&](std::size_t step) {
+    return std::clamp(best - evidence_[step % evidence_.size()] - kContradictedNat, 0.0, kMostAgainstNat);
+  };
+  belief.weigh([&against](double angle) {
     const double steps = angle / kStepRad, below = std::floor(steps);
     const auto k = static_cast<std::size_t>(below + AngleBelief::kSteps);
     const double share = steps - below;
-    return (1.0 - share) * against_[k % AngleBelief::kSteps] + share * against_[(k + 1) % AngleBelief::kSteps];
+    return (1.0 - share) * against(k) + share * against(k + 1);
   });
-  return allowed;
 }
 
 void FreeTurn::wait(const Pose& estimate, const Motion& motion) {

@@ -2,6 +2,7 @@
 #include "depth_object_tracker/tracker/look_alikes.h"
 
 #include "depth_object_tracker/filter/likelihood_climb.h"
+#include "tracker/pose_evidence.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -123,13 +124,6 @@ Overlap overlapAt(const std::vector<OrientedPoint>& surface, std::size_t queries
 double needed(const Pose& from, const Pose& to, const TurnPrior& prior) {
   const double turned = angle(from.linear().transpose() * to.linear()) / prior.stddev_rad;
   return kSurelyNat + 0.5 * turned * turned;
-}
-
-/// What a finger that passes for a handle gives away: its surface goes on where the object's ends. [nat] for a pose and
-/// against the present one.
-double outlineEvidence(DepthLikelihood& likelihood, const Pose& pose, const Pose& now) {
-  constexpr double kContinuedNat = 0.5;  // each cell of the outline
-  return kContinuedNat * (likelihood.assess(now, 0).continued_pixels - likelihood.assess(pose, 0).continued_pixels);
 }
 
 bool isNearAny(const Pose& T, const std::vector<Pose>& others, const Symmetries& symmetries) {

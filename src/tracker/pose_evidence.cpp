@@ -110,4 +110,9 @@ double worthFollowing(bool is_hidden, double remoteness, const PoseAssessment& a
          std::max(0.0, kLessIfItFits * fit * nearness - againstMerging(assessment));
 }
 
+double outlineEvidence(DepthLikelihood& likelihood, const Pose& pose, const Pose& now) {
+  constexpr double kContinuedNat = 0.5;  // each cell of the outline
+  return kContinuedNat * (likelihood.assess(now, 0).continued_pixels - likelihood.assess(pose, 0).continued_pixels);
+}
+
 }  // namespace depth_object_tracker

@@ -35,4 +35,8 @@ double neededEvidence(bool is_hidden, double remoteness);
 double worthFollowing(bool is_hidden, double remoteness, const PoseAssessment& assessment, double usual_score,
                       double usual_nat);
 
+/// What a finger that passes for a handle gives away: its surface goes on where the object's ends.
+/// @return [nat] for a pose and against the present one, both T_camera_centre.
+double outlineEvidence(DepthLikelihood& likelihood, const Pose& pose, const Pose& now);
+
 }  // namespace depth_object_tracker

@@ -65,14 +65,20 @@ class FreeTurn {
     bool is_free = false;  // the last image allows other angles
   };
   void prepare(DepthLikelihood& likelihood, const Pose& estimate);
-  /// What an image says of the angle. @return steps that it can be turned by, either way, until the image contradicts.
-  int look(DepthLikelihood& likelihood, const Pose& estimate, double exponent, Axis& axis);
+  struct Look {
+    int allowed = 0;               ///< steps that it can be turned by, either way, until the image contradicts
+    bool is_contradicted = false;  ///< the estimate itself: another angle that is believed has much more for it
+  };
+  /// What an image says of the angle.
+  Look look(DepthLikelihood& likelihood, const Pose& estimate, double exponent, Axis& axis);
+  /// @param best evidence [nat]; what has much less is contradicted.
+  void weigh(double best, AngleBelief& belief) const;
   /// About the estimate [rad^2].
   static double varianceOf(const Axis& axis);
 
   std::vector<Axis> axes_;
-  std::vector<Pose> region_;                         // scratch
-  std::array<double, AngleBelief::kSteps> against_;  // scratch [nat], from the estimate on
+  std::vector<Pose> region_;                          // scratch
+  std::array<double, AngleBelief::kSteps> evidence_;  // scratch: for angles from the estimate on [nat]
 };
 
 }  // namespace depth_object_tracker
