@@ -46,6 +46,13 @@ Vector6d difference(const Pose& to, const Pose& from) {
   return delta;
 }
 
+Vector6d poseVariances(double position_stddev_m, double rotation_stddev_rad) {
+  Vector6d variances;
+  variances.head<3>().setConstant(position_stddev_m * position_stddev_m);
+  variances.tail<3>().setConstant(rotation_stddev_rad * rotation_stddev_rad);
+  return variances;
+}
+
 Matrix6d transportCovariance(const Matrix6d& covariance, const Eigen::Vector3d& offset_camera) {
   Matrix6d jacobian = Matrix6d::Identity();
   jacobian.topRightCorner<3, 3>() = -skew(offset_camera);

@@ -21,10 +21,7 @@ void PoseSearch::around(const Pose& T_camera_centre, const Vector6d& variances, 
 Vector6d searchVariances(double hidden_s) {
   const double position_stddev_m = std::min(0.03 + 0.05 * hidden_s, 0.20);
   const double rotation_stddev_rad = std::min(0.25 + 0.3 * hidden_s, 1.0);
-  Vector6d variances;
-  variances.head<3>().setConstant(position_stddev_m * position_stddev_m);
-  variances.tail<3>().setConstant(rotation_stddev_rad * rotation_stddev_rad);
-  return variances;
+  return poseVariances(position_stddev_m, rotation_stddev_rad);
 }
 
 Vector6d hiddenVariances(const Vector6d& velocity, double hidden_s) {

@@ -18,15 +18,14 @@ constexpr SearchEffort kOnTable{0, 20000, 2000, 400, 24};
 constexpr SearchEffort kOfSurvivors{0, 60, 60, 20, 10};
 constexpr std::size_t kSurvivors = 6;
 constexpr double kSameM = 0.05, kSameRad = 0.5;  // from image to image
+constexpr double kExplainsMore = 1.1;            // likelihood, of a better pose
+constexpr double kSurerInHandNat = 2.0;          // than what the hand is thought to hold
 constexpr double kSureNat = 5.0;                 // log odds of an object that stands out
 constexpr double kPlacesToHide = 0.25;           // of those where the object may be
 constexpr double kLeastOfDistractors = -12.0;    // log odds [nat] in full view; half hidden, they look more alike
 
 Vector6d survivorVariances() {
-  Vector6d variances;
-  variances.head<3>().setConstant(0.012 * 0.012);
-  variances.tail<3>().setConstant(0.12 * 0.12);
-  return variances;
+  return poseVariances(0.012, 0.12);
 }
 
 /// Of poses that fit about as well as the first, and are about as sure, the one nearest to what is expected.
@@ -181,7 +180,7 @@ std::optional<Pose> Reacquisition::findGiven(const DepthImageView& depth, const 
                                              const Pose& T_camera_centre, const Pose& given, const Vector6d& variances,
                                              int samplings) {
   constexpr double kSurerNat = 1.0, kLeastNat = -2.5, kLeastInHandNat = -7.0;
-  constexpr double kSurerInHandNat = 3.0;  // where little is seen, that little may be the hand
+  constexpr double kBetterInHandNat = 3.0;  // where little is seen, that little may be the hand
   constexpr std::array<double, 3> kShares = {0.1, 0.3, 1.0};
   finder_->setImage(depth, camera, std::max(0.2, given.translation().z()));
   const auto log_posterior = [&](const FoundPose& one) {
@@ -193,7 +192,7 @@ std::optional<Pose> Reacquisition::findGiven(const DepthImageView& depth, const 
   const FoundPose now = finder_->judge(T_camera_centre);
   const double enough = std::max(in_hand_ ? kLeastInHandNat : kLeastNat, logOdds(now) + kSurerNat);
   std::optional<Pose> best;
-  double most = log_posterior(now) + (in_hand_ ? kSurerInHandNat : kSurerNat);
+  double most = log_posterior(now) + (in_hand_ ? kBetterInHandNat : kSurerNat);
   found_ = finder_->searchAround({given}, variances, kAround);
   // Something beside it may draw all others away.
   const FoundPose there = finder_->judge(given);
@@ -255,8 +254,6 @@ std::vector<Pose> Reacquisition::lookAround(const DepthImageView& depth, const P
 
 std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const PinholeCamera& camera,
                                               const Pose& T_camera_centre, const OtherPoses& others) {
-  constexpr double kSurer = 0.08, kElsewhereM = 0.01, kElsewhereRad = 0.2;
-  constexpr double kSurerInHand = 2.0, kLeastInHand = -5.0;  // [nat]
   finder_->setImage(depth, camera, std::max(0.2, T_camera_centre.translation().z()), others.occluders);
   found_ = finder_->searchAround({T_camera_centre}, others.variances, kAround);
   if (others.everywhere) {
@@ -267,48 +264,55 @@ std::optional<Pose> Reacquisition::findBetter(const DepthImageView& depth, const
   }
   const FoundPose now = finder_->judge(T_camera_centre);
   log_odds_now_ = logOdds(now);
-  constexpr double kExplainsMore = 1.1, kLeastNat = -3.0;
-  if (!found_.empty() && others.everywhere) {
-    constexpr double kMuchLikelier = 2.0, kSureByItself = 2.0, kLikelier = 1.0, kFarLikelier = 6.0;
-    constexpr double kTurnedRad = 1.0;
-    constexpr double kOddNat = -2.5, kLikelyByItself = 0.5, kLikelierThanOdd = 4.0;
-    const auto surer = [&](const FoundPose& one) {
-      return logOdds(one) - distractors_.against(one.T_camera_centre, T_camera_centre, others.memory_s);
-    };
-    const auto best = std::max_element(
-        found_.begin(), found_.end(), [&surer](const FoundPose& a, const FoundPose& b) { return surer(a) < surer(b); });
-    const bool is_here = (best->T_camera_centre.translation() - T_camera_centre.translation()).norm() < kSameM;
-    const double turned_rad = difference(best->T_camera_centre, T_camera_centre).tail<3>().norm();
-    const bool is_nearly_here = is_here && turned_rad < kTurnedRad;
-    const double more = best->assessment.log_likelihood / std::max(1.0, now.assessment.log_likelihood);
-    const double far = is_here ? 0.0 : unreachable(*best, T_camera_centre, others);
-    const double odds = surer(*best) - far, odds_now = logOdds(now);
-    const bool is_odd = others.is_unproven && odds_now < kOddNat;
-    const bool explains_more =
-        more > (is_here ? 1.0 : kExplainsMore) || odds > odds_now + (is_odd ? kLikelierThanOdd : kFarLikelier);
-    const double by_itself = is_odd ? kLikelyByItself : kSureByItself;
-    if (explains_more && odds > std::max(by_itself, odds_now + (is_nearly_here ? kLikelier : kMuchLikelier))) {
-      return best->T_camera_centre;
-    }
-    return std::nullopt;
-  }
-  if (!found_.empty() && others.by_likelihood) {
-    const FoundPose& most = mostExplaining(found_);
-    const double least_nat = in_hand_ ? logOdds(now) + kSurerInHand : std::min(kLeastNat, logOdds(now));
-    const bool is_better = most.quality > now.quality && logOdds(most) > least_nat &&
-                           most.assessment.log_likelihood > kExplainsMore * now.assessment.log_likelihood;
-    if (is_better) return most.T_camera_centre;
-    return std::nullopt;
-  }
-  // How much is hidden does not matter here: a mug whose handle is behind it hides less than one with it in the hand.
-  if (found_.empty() || fitOfWhatIsSeen(found_.front().assessment) < fitOfWhatIsSeen(now.assessment) + kSurer) {
-    return std::nullopt;
-  }
-  if (found_.front().assessment.log_likelihood < now.assessment.log_likelihood) return std::nullopt;
-  if (in_hand_ && logOdds(found_.front()) < std::max(kLeastInHand, logOdds(now) + kSurerInHand)) return std::nullopt;
-  const Vector6d moved = difference(found_.front().T_camera_centre, T_camera_centre);
+  if (found_.empty()) return std::nullopt;
+  if (others.everywhere) return surerThan(now, others);
+  return others.by_likelihood ? explainingMoreThan(now) : fittingBetterThan(now, others);
+}
+
+std::optional<Pose> Reacquisition::surerThan(const FoundPose& now, const OtherPoses& others) const {
+  constexpr double kMuchLikelier = 2.0, kSureByItself = 2.0, kLikelier = 1.0, kFarLikelier = 6.0;
+  constexpr double kTurnedRad = 1.0;
+  constexpr double kOddNat = -2.5, kLikelyByItself = 0.5, kLikelierThanOdd = 4.0;
+  const auto surer = [&](const FoundPose& one) {
+    return logOdds(one) - distractors_.against(one.T_camera_centre, now.T_camera_centre, others.memory_s);
+  };
+  const auto best = std::max_element(found_.begin(), found_.end(),
+                                     [&surer](const FoundPose& a, const FoundPose& b) { return surer(a) < surer(b); });
+  const Vector6d moved = difference(best->T_camera_centre, now.T_camera_centre);
+  const bool is_here = moved.head<3>().norm() < kSameM;
+  const bool is_nearly_here = is_here && moved.tail<3>().norm() < kTurnedRad;
+  const double more = best->assessment.log_likelihood / std::max(1.0, now.assessment.log_likelihood);
+  const double odds = surer(*best) - (is_here ? 0.0 : unreachable(*best, now.T_camera_centre, others));
+  const double odds_now = logOdds(now);
+  const bool is_odd = others.is_unproven && odds_now < kOddNat;
+  const bool explains_more =
+      more > (is_here ? 1.0 : kExplainsMore) || odds > odds_now + (is_odd ? kLikelierThanOdd : kFarLikelier);
+  const double needed =
+      std::max(is_odd ? kLikelyByItself : kSureByItself, odds_now + (is_nearly_here ? kLikelier : kMuchLikelier));
+  if (!explains_more || odds <= needed) return std::nullopt;
+  return best->T_camera_centre;
+}
+
+std::optional<Pose> Reacquisition::explainingMoreThan(const FoundPose& now) const {
+  constexpr double kLeastNat = -3.0;
+  const FoundPose& most = mostExplaining(found_);
+  const double least_nat = in_hand_ ? logOdds(now) + kSurerInHandNat : std::min(kLeastNat, logOdds(now));
+  const bool is_better = most.quality > now.quality && logOdds(most) > least_nat &&
+                         most.assessment.log_likelihood > kExplainsMore * now.assessment.log_likelihood;
+  if (!is_better) return std::nullopt;
+  return most.T_camera_centre;
+}
+
+/// How much is hidden does not matter here: a mug whose handle is behind it hides less than one with it in the hand.
+std::optional<Pose> Reacquisition::fittingBetterThan(const FoundPose& now, const OtherPoses& others) {
+  constexpr double kSurer = 0.08, kElsewhereM = 0.01, kElsewhereRad = 0.2, kLeastInHandNat = -5.0;
+  const FoundPose& best = found_.front();
+  if (fitOfWhatIsSeen(best.assessment) < fitOfWhatIsSeen(now.assessment) + kSurer) return std::nullopt;
+  if (best.assessment.log_likelihood < now.assessment.log_likelihood) return std::nullopt;
+  if (in_hand_ && logOdds(best) < std::max(kLeastInHandNat, logOdds(now) + kSurerInHandNat)) return std::nullopt;
+  const Vector6d moved = difference(best.T_camera_centre, now.T_camera_centre);
   if (moved.head<3>().norm() < kElsewhereM && moved.tail<3>().norm() < kElsewhereRad) return std::nullopt;
-  return finder_->settle(found_.front(), T_camera_centre, others.variances).T_camera_centre;
+  return finder_->settle(best, now.T_camera_centre, others.variances).T_camera_centre;
 }
 
 }  // namespace depth_object_tracker

@@ -39,10 +39,7 @@ double likelihoodExponent(const FilterConfig& config, int factor) {
 }
 
 Vector6d defaultInitialVariances(const InitialisationConfig& config) {
-  Vector6d variances;
-  variances.head<3>().setConstant(config.position_stddev_m * config.position_stddev_m);
-  variances.tail<3>().setConstant(config.rotation_stddev_rad * config.rotation_stddev_rad);
-  return variances;
+  return poseVariances(config.position_stddev_m, config.rotation_stddev_rad);
 }
 
 }  // namespace depth_object_tracker

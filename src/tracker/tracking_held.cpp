@@ -22,20 +22,12 @@ constexpr double kMostReachM = 0.015;  // what is nearer than that is the hand's
 
 /// How far an object may have slipped, and the kinematics be wrong, since it was last surely seen.
 Vector6d inHandVariances() {
-  constexpr double kSlippedM = 0.01, kSlippedRad = 0.15;
-  Vector6d variances;
-  variances.head<3>().setConstant(kSlippedM * kSlippedM);
-  variances.tail<3>().setConstant(kSlippedRad * kSlippedRad);
-  return variances;
+  return poseVariances(0.01, 0.15);
 }
 
 /// Of a pose that was found in the hand: what is beside it, and fits worse but explains more, is farther.
 Vector6d sampledVariances() {
-  constexpr double kStddevM = 0.0015, kStddevRad = 0.02;
-  Vector6d variances;
-  variances.head<3>().setConstant(kStddevM * kStddevM);
-  variances.tail<3>().setConstant(kStddevRad * kStddevRad);
-  return variances;
+  return poseVariances(0.0015, 0.02);
 }
 
 }  // namespace

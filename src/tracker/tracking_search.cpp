@@ -16,10 +16,7 @@ constexpr double kDoubtedAtFirstS = 0.12, kBetweenChecksS = 0.05;  // in every i
 constexpr double kDoubtfulReachS = 1.5;                            // as far as after this long unseen, at most
 
 Vector6d foundVariances() {
-  Vector6d variances;
-  variances.head<3>().setConstant(0.003 * 0.003);
-  variances.tail<3>().setConstant(0.04 * 0.04);
-  return variances;
+  return poseVariances(0.003, 0.04);
 }
 
 /// How far from the truth a pose given by hand may be.
@@ -33,10 +30,7 @@ Vector6d givenPoseVariances(const Vector6d& initial_variances) {
 
 /// A pose that was only just found may be turned any way.
 Vector6d anyTurnVariances() {
-  Vector6d variances;
-  variances.head<3>().setConstant(0.02 * 0.02);
-  variances.tail<3>().setConstant(1.5 * 1.5);
-  return variances;
+  return poseVariances(0.02, 1.5);
 }
 
 /// How far an object may go on as it moved when it was last seen, in any direction: a hand seldom goes straight on.

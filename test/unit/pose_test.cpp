@@ -122,6 +122,10 @@ TEST(Pose, TransportCovarianceAgreesWithMovedSamples) {
   }
 }
 
+TEST(Pose, VariancesAreTheSameAboutAllAxes) {
+  EXPECT_TRUE(poseVariances(0.1, 2.0).isApprox((Vector6d() << 0.01, 0.01, 0.01, 4.0, 4.0, 4.0).finished(), 1e-12));
+}
+
 TEST(Pose, TransportThereAndBackIsTheIdentity) {
   const Matrix6d root = Matrix6d::Random();
   const Matrix6d covariance = root * root.transpose();

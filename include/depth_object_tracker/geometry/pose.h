@@ -28,6 +28,10 @@ Pose perturb(const Pose& pose, const Vector6d& delta);
 /// The perturbation that takes `from` to `to`: perturb(from, difference(to, from)) == to.
 Vector6d difference(const Pose& to, const Pose& from);
 
+/// Variances of perturbations that are alike in all directions [m^2, rad^2].
+/// @param position_stddev_m, rotation_stddev_rad >= 0, about each axis.
+Vector6d poseVariances(double position_stddev_m, double rotation_stddev_rad);
+
 /// Moves a covariance of perturbations from a body point to the point `offset_camera` = R * (point_new - point_old)
 /// away from it: C_new = J C J^T with J = [I, -[offset]x; 0, I]. For the mesh origin seen from the centre c,
 /// offset = -R c, so J = [I, [R c]x; 0, I].

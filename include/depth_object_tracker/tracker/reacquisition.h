@@ -104,6 +104,12 @@ class Reacquisition {
   double outOfHand(const Pose& T_camera_centre) const;
   void findDistractors();
 
+  /// What was found that is better than the estimate; something was. Anywhere in the image:
+  std::optional<Pose> surerThan(const FoundPose& now, const OtherPoses& others) const;
+  /// Around the estimate.
+  std::optional<Pose> explainingMoreThan(const FoundPose& now) const;
+  std::optional<Pose> fittingBetterThan(const FoundPose& now, const OtherPoses& others);
+
   static constexpr double kScoreOfAFairMesh = 0.92;
   std::unique_ptr<PoseFinder> finder_;
   Distractors distractors_;
