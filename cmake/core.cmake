@@ -64,10 +64,12 @@ add_library(depth_object_tracker_core SHARED
   src/tracker/image_draws.cpp
   src/tracker/input_check.cpp
   src/tracker/live_parameters.cpp
+  src/tracker/look_alike_check.cpp
   src/tracker/look_alikes.cpp
   src/tracker/nearest_name.cpp
   src/tracker/object_model.cpp
   src/tracker/object_tracker.cpp
+  src/tracker/oriented_point_grid.cpp
   src/tracker/oriented_points.cpp
   src/tracker/other_objects.cpp
   src/tracker/pair_votes.cpp

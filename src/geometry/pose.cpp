@@ -32,6 +32,10 @@ Eigen::Vector3d logSo3(const Eigen::Matrix3d& rotation) {
   return 2.0 * std::atan2(sine, quaternion.w()) / sine * quaternion.vec();
 }
 
+double rotationAngle(const Eigen::Matrix3d& rotation) {
+  return logSo3(rotation).norm();
+}
+
 Pose perturb(const Pose& pose, const Vector6d& delta) {
   Pose result = Pose::Identity();
   result.translation() = pose.translation() + delta.head<3>();

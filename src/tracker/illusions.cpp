@@ -15,7 +15,7 @@ constexpr double kLeastNat = 0.02;
 constexpr double kMostNat = 20.0;  // what is better by more is not: it is the estimate that is contradicted
 
 double angleBetween(const Pose& a, const Pose& b) {
-  return logSo3(a.linear().transpose() * b.linear()).norm();
+  return rotationAngle(a.linear().transpose() * b.linear());
 }
 
 /// Share of a difference that is left after a while.

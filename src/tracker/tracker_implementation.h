@@ -12,7 +12,7 @@
 #include "depth_object_tracker/tracker/free_turn.h"
 #include "depth_object_tracker/tracker/grasp_memory.h"
 #include "depth_object_tracker/tracker/held_view.h"
-#include "depth_object_tracker/tracker/look_alikes.h"
+#include "depth_object_tracker/tracker/look_alike_check.h"
 #include "depth_object_tracker/tracker/object_tracker.h"
 #include "depth_object_tracker/tracker/pose_search.h"
 #include "depth_object_tracker/tracker/reacquisition.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Turns after which an object looks almost the same.
-#include "depth_object_tracker/tracker/look_alikes.h"
+#include "depth_object_tracker/tracker/look_alike_check.h"
 
 #include "scripted_scene.h"
 

@@ -126,6 +126,14 @@ TEST(Pose, VariancesAreTheSameAboutAllAxes) {
   EXPECT_TRUE(poseVariances(0.1, 2.0).isApprox((Vector6d() << 0.01, 0.01, 0.01, 4.0, 4.0, 4.0).finished(), 1e-12));
 }
 
+TEST(Pose, TheAngleOfARotationIsThatOfItsVector) {
+  const Eigen::Vector3d axis = Eigen::Vector3d(1.0, -2.0, 0.5).normalized();
+  for (const double angle : {0.0, 1e-9, 0.3, 2.0, M_PI - 1e-7, M_PI}) {
+    EXPECT_NEAR(rotationAngle(expSo3(angle * axis)), angle, 1e-9);
+    EXPECT_NEAR(rotationAngle(expSo3(-angle * axis)), angle, 1e-9);
+  }
+}
+
 TEST(Pose, TransportThereAndBackIsTheIdentity) {
   const Matrix6d root = Matrix6d::Random();
   const Matrix6d covariance = root * root.transpose();

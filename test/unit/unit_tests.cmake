@@ -13,7 +13,10 @@ add_tracker_test(file_unit_tests SOURCES unit/file_access_test.cpp unit/isolated
 target_include_directories(file_unit_tests PRIVATE ${PROJECT_SOURCE_DIR}/src)
 add_dependencies(file_unit_tests mesh_reader)
 add_tracker_test(input_check_unit_tests SOURCES unit/input_check_test.cpp)
-add_tracker_test(image_points_unit_tests SOURCES unit/oriented_points_test.cpp unit/plane_finder_test.cpp)
+add_tracker_test(image_points_unit_tests SOURCES
+  unit/oriented_point_grid_test.cpp
+  unit/oriented_points_test.cpp
+  unit/plane_finder_test.cpp)
 add_tracker_test(pair_votes_unit_tests SOURCES unit/image_draws_test.cpp unit/pair_votes_test.cpp)
 target_include_directories(pair_votes_unit_tests PRIVATE ${PROJECT_SOURCE_DIR}/src)
 add_tracker_test(parameter_unit_tests SOURCES

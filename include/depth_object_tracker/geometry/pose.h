@@ -22,6 +22,9 @@ Eigen::Matrix3d expSo3(const Eigen::Vector3d& rotation_vector);
 /// Inverse of expSo3 with norm in [0, pi]; well-conditioned near 0 and near pi.
 Eigen::Vector3d logSo3(const Eigen::Matrix3d& rotation);
 
+/// By how much it turns [rad], 0 to pi.
+double rotationAngle(const Eigen::Matrix3d& rotation);
+
 /// Applies a perturbation: translation added, rotation applied from the left (axes of the target frame).
 Pose perturb(const Pose& pose, const Vector6d& delta);
 
