@@ -53,7 +53,7 @@ class CameraListener {
     ASSERT_TRUE(waitForTracker());
     ASSERT_TRUE(waitUntil([&] { return images_.size() > 0; }));
     initialise(virtualPose(virtualTime(pixels(*images_.newest()))));
-    const ros::Time begin = images_.newest()->header.stamp + ros::Duration(0.5);
+    const ros::Time begin = images_.newest()->header.stamp + ros::Duration(0.5 * kSlowness);
     ASSERT_TRUE(waitUntil([&] { return errorsSince(begin).size() >= 40; })) << reason();
     expectSmall(errorsSince(begin));
     EXPECT_EQ(static_cast<int>(status()->state), static_cast<int>(TrackerStatus::TRACKING)) << reason();

@@ -15,7 +15,10 @@ int main(int argc, char** argv) {
     return 1;
   }
   ros::init(argc, argv, "manager");
-  nodelet::Loader manager;
+  // Never destroyed: where a bond broke a moment before, nodelet::Loader's destructor unloads from the map that it has
+  // just destroyed, and ends in std::terminate. Our nodelets are all that is of interest.
+  static nodelet::Loader& manager = *new nodelet::Loader;
   ros::spin();
+  manager.clear();
   return 0;
 }

@@ -12,7 +12,7 @@ use_sanitizer_options() {
     log=":log_path=$1/report:log_exe_name=1"
   fi
   # gcc's UndefinedBehaviorSanitizer ignores log_path beside AddressSanitizer: it aborts, which AddressSanitizer then reports.
-  export ASAN_OPTIONS="suppressions=$SANITIZERS/asan.supp:detect_stack_use_after_return=1:strict_string_checks=1:handle_abort=1$log"
+  export ASAN_OPTIONS="detect_stack_use_after_return=1:strict_string_checks=1:handle_abort=1$log"
   export LSAN_OPTIONS="suppressions=$SANITIZERS/lsan.supp:print_suppressions=0"  # what was suppressed is no finding
   export UBSAN_OPTIONS="print_stacktrace=1:abort_on_error=1$log"
   export TSAN_OPTIONS="suppressions=$SANITIZERS/tsan.supp:second_deadlock_stack=1:ignore_noninstrumented_modules=1$log"
