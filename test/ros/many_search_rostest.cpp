@@ -16,7 +16,7 @@
 namespace depth_object_tracker {
 namespace {
 
-constexpr double kSearchPatienceS = 240.0;
+constexpr double kSearchPatienceS = 240.0 * kSlowness;
 constexpr double kNearM = 0.05;  // a mug whose handle is turned wrongly is still the right mug
 
 /// Three things that stand still, none of them much hidden, seen by a camera that goes on whatever happens to the

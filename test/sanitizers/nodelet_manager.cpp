@@ -15,10 +15,10 @@ int main(int argc, char** argv) {
     return 1;
   }
   ros::init(argc, argv, "manager");
-  // Never destroyed: where a bond broke a moment before, nodelet::Loader's destructor unloads from the map that it has
-  // just destroyed, and ends in std::terminate. Our nodelets are all that is of interest.
-  static nodelet::Loader& manager = *new nodelet::Loader;
+  nodelet::Loader manager;
   ros::spin();
+  // Where a bond broke a moment before, the loader's destructor looks for the bond's nodelet in the map that it has just
+  // destroyed; in an emptied one that ends well.
   manager.clear();
   return 0;
 }
