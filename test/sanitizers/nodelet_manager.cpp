@@ -17,8 +17,8 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "manager");
   nodelet::Loader manager;
   ros::spin();
-  // Where a bond broke a moment before, the loader's destructor looks for the bond's nodelet in the map that it has just
-  // destroyed; in an emptied one that ends well.
+  // Where a bond broke a moment before, the loader's destructor looks for the bond's nodelet in the map that it has
+  // just destroyed; in an emptied one that ends well.
   manager.clear();
   return 0;
 }
