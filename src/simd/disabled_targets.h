@@ -2,7 +2,10 @@
 // Before any Highway header: fewer instruction sets than it could, for build time.
 #pragma once
 
-#ifdef DEPTH_OBJECT_TRACKER_FEW_TARGETS
+#if defined(DEPTH_OBJECT_TRACKER_FEW_TARGETS) && defined(__SANITIZE_THREAD__)
+// ThreadSanitizer looks at loads and stores of more than 16 bytes byte by byte.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX2 | HWY_AVX3 | HWY_AVX3_DL)
+#elif defined(DEPTH_OBJECT_TRACKER_FEW_TARGETS)
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3 | HWY_AVX3_DL)
 #else
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
