@@ -3,7 +3,7 @@
 #pragma once
 
 #if defined(DEPTH_OBJECT_TRACKER_FEW_TARGETS) && defined(__SANITIZE_THREAD__)
-// ThreadSanitizer looks at loads and stores of more than 16 bytes byte by byte.
+// ThreadSanitizer has a slow path for loads and stores of more than 16 bytes.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX2 | HWY_AVX3 | HWY_AVX3_DL)
 #elif defined(DEPTH_OBJECT_TRACKER_FEW_TARGETS)
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3 | HWY_AVX3_DL)

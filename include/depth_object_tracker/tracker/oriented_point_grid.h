@@ -13,11 +13,11 @@ namespace depth_object_tracker {
 /// Points in cells as wide as the farthest that is asked for: what is near lies in a cell or in one beside it.
 class OrientedPointGrid {
  public:
-  /// @param points anywhere, in one frame; may be empty. @param reach_m > 0.
+  /// @param points finite, in one frame; may be empty. @param reach_m [m] > 0 where there are points.
   OrientedPointGrid(std::vector<OrientedPoint> points, double reach_m);
 
-  /// @param normal unit length. @param least_cosine between the normals, whichever way they point: meshes may be wound
-  /// either way.
+  /// @param point finite, in the frame of the points [m]. @param normal unit length. @param least_cosine between the
+  /// normals, whichever way they point: meshes may be wound either way.
   /// @return the nearest of those within the reach whose normal is like that, of equally near ones the first; null if
   /// there is none.
   const OrientedPoint* nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, double least_cosine) const;
